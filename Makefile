@@ -1,0 +1,145 @@
+# Gannet. `make help` lists the doors. One Makefile, no recursion: each room (a folder) becomes a
+# static library, each programs' folder a program, each file below tests/ a test binary.
+# A room that gets a new .cpp needs no line here; a new room needs one line in the table below.
+
+PROFILE ?= release
+B       := build/$(PROFILE)
+CXX     ?= g++
+PREFIX  ?= /usr/local
+DESTDIR ?=
+VERSION := 0.1.0
+
+ifeq (,$(filter -j%,$(MAKEFLAGS)))
+MAKEFLAGS += -j$(shell nproc)
+endif
+
+# ---- flags -------------------------------------------------------------------------------------
+# -ffp-contract=off: the same bits on every path and machine (docs/design/same-bits.md).
+WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual \
+            -Wcast-qual -Wformat=2 -Wundef -Wvla -Wimplicit-fallthrough -Werror
+CXXFLAGS_COMMON := -std=c++20 -g -ffp-contract=off -fno-math-errno -fPIE -I. -isystem /usr/include/eigen3 \
+            -DGANNET_VERSION='"$(VERSION)"' $(WARNINGS) -MMD -MP
+CXXFLAGS_release := -O2 -fno-omit-frame-pointer
+CXXFLAGS_debug   := -O0 -D_GLIBCXX_ASSERTIONS
+CXXFLAGS_asan    := -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all
+CXXFLAGS_tsan    := -O1 -fno-omit-frame-pointer -fsanitize=thread
+LDFLAGS_asan     := -fsanitize=address,undefined
+LDFLAGS_tsan     := -fsanitize=thread
+CXXFLAGS_ALL = $(CXXFLAGS_COMMON) $(CXXFLAGS_$(PROFILE)) $(CXXFLAGS)
+LDFLAGS_ALL  = -pie $(LDFLAGS_$(PROFILE)) $(LDFLAGS) -pthread
+ARCH := $(shell $(CXX) -dumpmachine 2>/dev/null | cut -d- -f1)
+
+# ---- rooms: who may use whom --------------------------------------------------------------------
+# room: folder; uses: the libraries that it may link, nearest first. tests/style checks #includes.
+ROOMS := platform/base platform/linux hal/camera hal/can hal/gpio hal/drive \
+         src/core src/search src/vision src/track src/servo src/vehicle src/safety \
+         src/config src/telemetry src/control src/modeldb src/image_file src/report
+uses_platform/base  :=
+uses_platform/linux := platform/base
+uses_hal/camera     := platform/linux platform/base
+uses_hal/can        := platform/linux platform/base
+uses_hal/gpio       := platform/linux platform/base
+uses_hal/drive      := hal/can platform/linux platform/base
+uses_src/core       := platform/base
+uses_src/search     := src/core platform/base
+uses_src/vision     := src/core platform/base
+uses_src/track      := src/vision src/search src/core platform/base
+uses_src/servo      := src/core platform/base
+uses_src/vehicle    := src/core platform/base
+uses_src/safety     := src/core platform/base
+uses_src/config     := src/track src/servo src/vehicle src/safety src/vision src/search hal/drive hal/can hal/camera hal/gpio src/image_file src/core platform/linux platform/base
+uses_src/telemetry  := src/core platform/linux platform/base
+uses_src/control    := src/core platform/linux platform/base
+uses_src/image_file := src/core platform/linux platform/base
+uses_src/report     := src/image_file src/core platform/linux platform/base
+uses_src/modeldb    := src/config src/vision src/image_file src/core platform/linux platform/base
+ALL_ROOMS := src/modeldb src/control src/telemetry src/config src/report src/track src/servo src/vehicle src/safety src/vision src/search hal/drive hal/can hal/camera hal/gpio src/image_file src/core platform/linux platform/base
+
+
+# Programs: main.cpp in the folder is the program, the other files are its library, so that tests
+# can link them.
+PROGRAM_gannetd      := src/daemon
+PROGRAM_gannet       := src/tool
+PROGRAM_gannet-world := src/world
+PROGRAMS := $(foreach p,gannetd gannet gannet-world,$(if $(wildcard $(PROGRAM_$p)/main.cpp),$p))
+LIBS := -lpng -lturbojpeg
+
+# ---- sources -> objects -> libraries ------------------------------------------------------------
+# Kernel variants: <name>_avx2.cpp, _avx512.cpp and _neon.cpp get their instruction set; only they.
+# They include neither Eigen nor inline library code, so that no other room is built with it.
+not_here := $(if $(filter x86_64,$(ARCH)),%_neon.cpp,%_avx2.cpp %_avx512.cpp)
+sources   = $(filter-out $(not_here) %/main.cpp,$(wildcard $1/*.cpp $1/*/*.cpp))
+objects   = $(patsubst %.cpp,$B/obj/%.o,$(call sources,$1))
+library   = $B/lib/$(subst /,_,$1).a
+libraries = $(foreach r,$1,$(if $(wildcard $r/*.cpp $r/*/*.cpp),$(call library,$r)))
+
+.SUFFIXES:
+.SECONDARY:
+.DELETE_ON_ERROR:
+.DEFAULT_GOAL := all
+
+all: $(foreach p,$(PROGRAMS),$B/bin/$p)
+
+# Rebuilds everything when compiler or flags change.
+$B/flags: FORCE
+	@mkdir -p $(@D); echo '$(CXX) $(CXXFLAGS_ALL) / $(LDFLAGS_ALL) $(LIBS)' | cmp -s - $@ || \
+	 echo '$(CXX) $(CXXFLAGS_ALL) / $(LDFLAGS_ALL) $(LIBS)' > $@
+FORCE:
+
+$B/obj/%_avx2.o: TARGET_FLAGS := -O3 -mavx2
+$B/obj/%_avx512.o: TARGET_FLAGS := -O3 -mavx512f -mavx512bw -mavx512vl -mavx512vnni
+$B/obj/%_neon.o: TARGET_FLAGS := -O3
+$B/obj/%_scalar.o: TARGET_FLAGS := -O3
+
+$B/obj/%.o: %.cpp $B/flags
+	@mkdir -p $(@D)
+	@echo "  CXX  $<"
+	@$(CXX) $(CXXFLAGS_ALL) $(TARGET_FLAGS) -c $< -o $@
+
+define library_rule
+$(call library,$1): $(call objects,$1)
+	@mkdir -p $$(@D)
+	@echo "  AR   $$@"
+	@rm -f $$@; ar rcs $$@ $$^
+endef
+$(foreach r,$(ROOMS) src/daemon src/tool src/world,$(eval $(call library_rule,$r)))
+
+link = mkdir -p $(@D); echo "  LD   $@"; \
+       $(CXX) $(CXXFLAGS_ALL) -o $@ $(filter %.o,$^) -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(LDFLAGS_ALL)
+
+define program_rule
+$B/bin/$1: $B/obj/$(PROGRAM_$1)/main.o $(call libraries,$(PROGRAM_$1) $(ALL_ROOMS))
+	@$$(link) $(LIBS)
+endef
+$(foreach p,$(PROGRAMS),$(eval $(call program_rule,$p)))
+
+# ---- tests --------------------------------------------------------------------------------------
+# tests/unit/<room>/*.cpp: one binary a room, linked with nothing but what the room may use.
+# tests/{golden,stress,rt,system}/*.cpp: one binary a folder, linked with everything.
+# tests/*/*.sh: scripts; exit 0 passed, 77 skipped, else failed; $GANNET_BUILD is the build folder.
+UNIT_ROOMS := $(foreach r,$(ROOMS) src/daemon src/tool src/world,$(if $(wildcard tests/unit/$r/*.cpp),$r))
+BIG_TESTS  := $(foreach t,golden stress rt system,$(if $(wildcard tests/$t/*.cpp),$t))
+uses_src/daemon := $(ALL_ROOMS)
+uses_src/tool   := $(ALL_ROOMS)
+uses_src/world  := $(ALL_ROOMS)
+libs_of = $(if $(filter src/image_file src/report src/modeldb src/config src/daemon src/tool src/world,$1),$(LIBS))
+
+define unit_rule
+$B/tests/unit/$1/run: $(patsubst %.cpp,$B/obj/%.o,$(wildcard tests/unit/$1/*.cpp)) $(call libraries,$1 $(uses_$1))
+	@$$(link) $(call libs_of,$1) -lgtest_main -lgtest
+endef
+$(foreach r,$(UNIT_ROOMS),$(eval $(call unit_rule,$r)))
+define big_rule
+$B/tests/$1/run: $(patsubst %.cpp,$B/obj/%.o,$(wildcard tests/$1/*.cpp)) $(call libraries,src/daemon src/tool src/world $(ALL_ROOMS))
+	@$$(link) $(LIBS) -lgtest_main -lgtest
+endef
+$(foreach t,$(BIG_TESTS),$(eval $(call big_rule,$t)))
+TEST_BINARIES := $(foreach r,$(UNIT_ROOMS),$B/tests/unit/$r/run) $(foreach t,$(BIG_TESTS),$B/tests/$t/run)
+TEST_SCRIPTS  := $(sort $(wildcard tests/style/*.sh tests/golden/*.sh tests/system/*.sh))
+
+tests: $(TEST_BINARIES)
+# One room's tests: make unit/src/vision
+unit/%: $B/tests/unit/%/run
+	$<
+
+-include $(shell find $B -name '*.d' 2>/dev/null)

@@ -1,0 +1,55 @@
+// StereoRig: two calibrated cameras. Projects points and directions; never warps images.
+// Pixel (0, 0) is the centre of the first pixel. A value after loading; RT safe.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+
+#include "platform/base/result.hpp"
+#include "platform/base/time.hpp"
+#include "src/core/transform.hpp"
+
+namespace gannet {
+
+enum class Distortion { kNone, kBrown, kFisheye };
+
+struct Intrinsics {
+  int width = 0;   // pixels
+  int height = 0;
+  double fx = 0;   // pixels
+  double fy = 0;
+  double cx = 0;
+  double cy = 0;
+  Distortion distortion = Distortion::kNone;
+  // brown: k1 k2 p1 p2 k3 (Brown–Conrady, OpenCV's order); fisheye: k1 k2 k3 k4 (Kannala–Brandt)
+  std::array<double, 5> coefficients = {};
+  Duration time_offset = {};  // added to the driver's stamp
+
+  // Pixel of a point in the camera's optical frame (metres); empty when it is behind the camera
+  // or beyond where the distortion model is one-to-one.
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const;
+  // Ray (x, y, 1) through a pixel; the inverse of project, by iteration.
+  Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;
+  // Distorted normalised coordinates of undistorted ones.
+  Eigen::Vector2d distort(const Eigen::Vector2d& normalised) const;
+  // The largest radius (normalised, undistorted) up to which distort is one-to-one.
+  double valid_radius() const;
+};
+
+struct StereoRig {
+  Intrinsics left;
+  Intrinsics right;
+  Transform<RightCamera, LeftCamera> right_from_left;
+  // Σ_H: midway between the cameras, axes of the left one, unless the file says otherwise.
+  Transform<Hand, LeftCamera> hand_from_left;
+  std::optional<Transform<Body, Hand>> body_from_hand;
+
+  double baseline_m() const { return right_from_left.translation.norm(); }
+};
+
+// Checks that a rig is physical: positive focal lengths, proper rotation, sizes, baseline.
+Result<void> check(const StereoRig& rig);
+
+}  // namespace gannet

@@ -1,0 +1,32 @@
+// The recogniser's and tracker's parameters, described once. Start-up only.
+#pragma once
+
+#include <string>
+
+#include "platform/base/describe.hpp"
+#include "src/search/search_config.hpp"
+
+namespace gannet::track {
+
+struct TrackConfig {
+  std::string fitness = "gannet";      // p001 | p002 | p000 | gannet
+  std::string optimiser = "gannet";    // rm_ga | differential_evolution | cma_es | gannet
+  int evaluations = 20000;             // full stereo evaluations from nothing
+  int evaluations_tracking = 2000;     // while locked
+  int seed = 1;
+  int model_points = 800;              // wanted S_in points of a model
+  double found_fitness = 0.5;          // least fitness that counts as found
+  double z_min_m = 0.4;
+  double z_max_m = 1.0;
+  double half_width_x_m = 0;           // 0: the common field of view
+  double half_width_y_m = 0;
+  double tilt_deg = 40;
+  double roll_deg = 45;
+  double coast_s = 0.5;                // locked → coasting → lost after this long unseen
+  int lock_frames = 2;                 // consecutive finds before locked
+  search::SearchConfig search;
+};
+
+void describe(Visitor& v, TrackConfig& c);
+
+}  // namespace gannet::track
