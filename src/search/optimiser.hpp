@@ -26,6 +26,10 @@ class Optimiser {
   // (at most genes.size() / dimension(), at least 1).
   virtual int propose(std::span<float> genes) = 0;
 
+  // How finely the candidates of the last propose want to be scored: 0 is the full model on the
+  // full images, each step up a coarser one. Optimisers that know no levels leave it at 0.
+  virtual int level() const { return 0; }
+
   // The scores of the candidates of the last propose, in their order.
   virtual void learn(std::span<const float> scores) = 0;
 

@@ -11,7 +11,7 @@
 #include "hal/camera/image_view.hpp"
 #include "platform/base/describe.hpp"
 #include "platform/base/result.hpp"
-#include "src/core/parallel.hpp"
+#include "platform/base/parallel.hpp"
 #include "src/core/pose_estimate.hpp"
 #include "src/core/stereo_rig.hpp"
 #include "src/track/recognition.hpp"
