@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "platform/base/result.hpp"
 #include "platform/base/time.hpp"
@@ -16,9 +17,9 @@ namespace gannet {
 enum class Distortion { kNone, kBrown, kFisheye };
 
 struct Intrinsics {
-  int width = 0;   // pixels
+  int width = 0;  // pixels
   int height = 0;
-  double fx = 0;   // pixels
+  double fx = 0;  // pixels
   double fy = 0;
   double cx = 0;
   double cy = 0;
@@ -49,7 +50,15 @@ struct StereoRig {
   double baseline_m() const { return right_from_left.translation.norm(); }
 };
 
-// Checks that a rig is physical: positive focal lengths, proper rotation, sizes, baseline.
+// What is not physical in a rig, by the key of the RIG file that says it ("left.fx"): sizes, focal
+// lengths, distortion that folds inside the image, rotations, baseline.
+struct RigProblem {
+  std::string key;
+  std::string text;
+};
+std::vector<RigProblem> problems_of(const StereoRig& rig);
+
+// The same as one error, a line each.
 Result<void> check(const StereoRig& rig);
 
 }  // namespace gannet
