@@ -54,7 +54,8 @@ class Visitor {
   template <class Config>
   void list(std::string_view name, std::vector<Config>& configs, std::string_view help) {
     const int wanted = enter_list(name, static_cast<int>(configs.size()), help);
-    if (wanted >= 0) configs.resize(static_cast<std::size_t>(wanted));
+    // New elements begin from their defaults, never from what an earlier file had at this index.
+    if (wanted >= 0) configs.assign(static_cast<std::size_t>(wanted), Config{});
     for (std::size_t i = 0; i < configs.size(); ++i) {
       if (!enter_element(static_cast<int>(i))) continue;
       describe(*this, configs[i]);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -42,6 +43,13 @@ std::string_view nearest_word(std::string_view word, const Words& known) {
     }
   }
   return nearest;
+}
+
+// " (did you mean x?)", or nothing.
+template <class Words>
+std::string did_you_mean(std::string_view word, const Words& known) {
+  const std::string_view nearest = nearest_word(word, known);
+  return nearest.empty() ? "" : " (did you mean " + std::string(nearest) + "?)";
 }
 
 }  // namespace gannet
