@@ -50,9 +50,9 @@ uses_src/safety     := src/core platform/base
 uses_src/config     := src/track src/servo src/vehicle src/safety src/vision src/search hal/drive hal/can hal/camera hal/gpio src/image_file src/core platform/linux platform/base
 uses_src/telemetry  := src/core platform/linux platform/base
 uses_src/control    := src/core platform/linux platform/base
-uses_src/image_file := src/core platform/linux platform/base
-uses_src/report     := src/image_file src/core platform/linux platform/base
-uses_src/modeldb    := src/config src/vision src/image_file src/core platform/linux platform/base
+uses_src/image_file := hal/camera src/core platform/linux platform/base
+uses_src/report     := src/image_file hal/camera src/core platform/linux platform/base
+uses_src/modeldb    := src/config src/vision src/image_file hal/camera src/core platform/linux platform/base
 ALL_ROOMS := src/modeldb src/control src/telemetry src/config src/report src/track src/servo src/vehicle src/safety src/vision src/search hal/drive hal/can hal/camera hal/gpio src/image_file src/core platform/linux platform/base
 
 
