@@ -21,9 +21,16 @@ struct Wrench {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();
 };
 
+// The twist of a frame A that is rigidly joined to B.
+template <class A, class B>
+Twist<A> joined_twist(const Transform<A, B>& a_from_b, const Twist<B>& twist) {
+  const Eigen::Vector3d angular = a_from_b.rotation * twist.angular;
+  return {a_from_b.rotation * twist.linear + a_from_b.translation.cross(angular), angular};
+}
+
 // What servo asks of the vehicle, in the body's frame (x forward, y left, z up). velocity is
-// relative to the water or floor as far as it can be told; measured is the present velocity
-// relative to the target as the filter sees it, for vehicles that close a velocity loop.
+// relative to the water or floor as far as it can be told; measured is the present velocity in the
+// same sense, from what the filter sees of the target, for vehicles that close a velocity loop.
 struct MotionWish {
   Twist<Body> velocity;
   Twist<Body> measured;
