@@ -16,4 +16,19 @@ struct CanFrame {
   friend bool operator==(const CanFrame&, const CanFrame&) = default;
 };
 
+inline constexpr std::uint32_t kMaxStandardId = 0x7FF;
+inline constexpr std::uint32_t kMaxExtendedId = 0x1FFFFFFF;
+
+// A frame is wanted when its id equals id in all the bits of mask. Several filters are an or.
+struct CanFilter {
+  std::uint32_t id = 0;
+  std::uint32_t mask = 0;
+  bool extended = false;
+
+  constexpr bool matches(const CanFrame& frame) const {
+    return frame.extended == extended && !frame.error && ((frame.id ^ id) & mask) == 0;
+  }
+  friend bool operator==(const CanFilter&, const CanFilter&) = default;
+};
+
 }  // namespace gannet::hal

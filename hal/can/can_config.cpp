@@ -1,0 +1,14 @@
+#include "hal/can/can_config.hpp"
+
+namespace gannet::hal {
+
+void describe(Visitor& v, CanConfig& c) {
+  v.field("kind", c.kind,
+          {.choices = {"local", "memory"},
+           .help = "local: frames over a Unix socket that gannet-world or another hub serves; "
+                   "memory: a bus with nobody else on it, for a try without motors."});
+  v.field("path", c.path,
+          {.help = "The hub's socket for kind local: a path, or @ and an abstract name."});
+}
+
+}  // namespace gannet::hal
