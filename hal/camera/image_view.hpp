@@ -21,7 +21,7 @@ enum class ColourMatrix : std::uint8_t { kBt601, kBt709 };
 enum class ColourRange : std::uint8_t { kLimited, kFull };
 
 struct ImageView {
-  int width = 0;   // pixels; even for the subsampled formats
+  int width = 0;  // pixels; even for the subsampled formats
   int height = 0;
   PixelFormat format = PixelFormat::kYuyv;
   ColourMatrix matrix = ColourMatrix::kBt601;

@@ -31,7 +31,7 @@ class StereoCamera {
  public:
   virtual ~StereoCamera() = default;
 
-  virtual int width() const = 0;   // pixels of each image
+  virtual int width() const = 0;  // pixels of each image
   virtual int height() const = 0;
 
   // Starts the stream. Start-up only.

@@ -16,8 +16,8 @@ struct StereoFrame {
   Lease right_lease;  // invalid where one slot carries both images
   ImageView left;
   ImageView right;
-  TimePoint capture_time;     // middle of the exposure
-  std::uint64_t number = 0;   // counts pairs from 1, gaps where pairs were lost
+  TimePoint capture_time;    // middle of the exposure
+  std::uint64_t number = 0;  // counts pairs from 1, gaps where pairs were lost
 };
 
 }  // namespace gannet::hal

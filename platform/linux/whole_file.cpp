@@ -1,31 +1,17 @@
 #include "platform/linux/whole_file.hpp"
 
 #include <fcntl.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
+
+#include "platform/linux/fd.hpp"
 
 namespace gannet::linux_os {
 namespace {
-
-Error failure(const std::string& path, const char* what) {
-  return Error{path + ": " + what + ": " + std::strerror(errno)};
-}
-
-// Closes at the scope's end.
-struct Descriptor {
-  int fd;
-  explicit Descriptor(int descriptor) : fd(descriptor) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (fd >= 0) ::close(fd);
-  }
-};
 
 bool write_all(int fd, std::span<const std::uint8_t> bytes) {
   while (!bytes.empty()) {
@@ -37,20 +23,19 @@ bool write_all(int fd, std::span<const std::uint8_t> bytes) {
   return true;
 }
 
-// mkstemp makes 0600; a file that people share gets what open() would have given it.
-mode_t usual_mode() {
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return 0666 & ~mask;
+// Of this process and call alone; made with open(), so that the umask gives it its mode.
+std::string temporary_beside(const std::string& path) {
+  static std::atomic<unsigned> calls{0};
+  return path + "." + std::to_string(::getpid()) + "." + std::to_string(calls++) + ".new";
 }
 
 }  // namespace
 
 Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::size_t max_bytes) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (file.fd < 0) return failure(path, "cannot open");
+  const Fd file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!file.valid()) return system_error(path + ": cannot open", errno);
   struct stat about = {};
-  if (::fstat(file.fd, &about) != 0) return failure(path, "cannot stat");
+  if (::fstat(file.get(), &about) != 0) return system_error(path + ": cannot stat", errno);
   if (!S_ISREG(about.st_mode)) return Error{path + ": not a regular file"};
   const auto size = static_cast<std::size_t>(about.st_size);
   if (size > max_bytes)
@@ -59,9 +44,9 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::size_t
   std::vector<std::uint8_t> bytes(size);
   std::size_t got = 0;
   while (got < size) {
-    const ssize_t n = ::read(file.fd, bytes.data() + got, size - got);
+    const ssize_t n = ::read(file.get(), bytes.data() + got, size - got);
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return failure(path, "cannot read");
+    if (n < 0) return system_error(path + ": cannot read", errno);
     if (n == 0) break;  // it shrank meanwhile: what is there is what counts
     got += static_cast<std::size_t>(n);
   }
@@ -70,20 +55,20 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::size_t
 }
 
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
-  std::string temporary = path + ".XXXXXX";
-  const Descriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
-  if (file.fd < 0) return failure(path, "cannot create a file beside it");
-  const bool done = write_all(file.fd, bytes) && ::fchmod(file.fd, usual_mode()) == 0 &&
-                    ::fsync(file.fd) == 0 && std::rename(temporary.c_str(), path.c_str()) == 0;
+  const std::string temporary = temporary_beside(path);
+  const Fd file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+  if (!file.valid()) return system_error(path + ": cannot create a file beside it", errno);
+  const bool done = write_all(file.get(), bytes) && ::fsync(file.get()) == 0 &&
+                    std::rename(temporary.c_str(), path.c_str()) == 0;
   if (done) return {};
-  const Error error = failure(path, "cannot write");
+  const Error error = system_error(path + ": cannot write", errno);
   ::unlink(temporary.c_str());
   return error;
 }
 
 Result<void> write_file(const std::string& path, const std::string& text) {
-  return write_file(
-      path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+  return write_file(path,
+                    std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }
 
 }  // namespace gannet::linux_os
