@@ -180,9 +180,10 @@ void Loader::finish() { refuse_unknown(); }
 
 void Loader::refuse_unknown() {
   const Level& level = levels_.back();
-  for (const auto& [name, value] : level.table->members) {
-    if (std::find(level.known.begin(), level.known.end(), name) != level.known.end()) continue;
-    refuse(value, name, "unknown key" + did_you_mean(name, level.known));
+  for (const TomlValue& member : level.table->members) {
+    const bool known =
+        std::find(level.known.begin(), level.known.end(), member.name) != level.known.end();
+    if (!known) refuse(member, member.name, "unknown key" + did_you_mean(member.name, level.known));
   }
 }
 

@@ -20,10 +20,10 @@ TomlValue convert(const toml::node& node);
 TomlValue convert_table(const toml::table& table) {
   TomlValue value;
   for (const auto& [key, member] : table)
-    value.members.emplace_back(std::string(key.str()), convert(member));
+    value.members.emplace_back(convert(member)).name = std::string(key.str());
   // toml++ sorts by name; people think in lines.
   std::stable_sort(value.members.begin(), value.members.end(),
-                   [](const auto& a, const auto& b) { return a.second.line < b.second.line; });
+                   [](const auto& a, const auto& b) { return a.line < b.line; });
   return value;
 }
 
@@ -62,9 +62,9 @@ std::string one_line(std::string_view text) {
 
 }  // namespace
 
-const TomlValue* TomlValue::find(std::string_view name) const {
-  for (const auto& [key, value] : members)
-    if (key == name) return &value;
+const TomlValue* TomlValue::find(std::string_view key) const {
+  for (const TomlValue& member : members)
+    if (member.name == key) return &member;
   return nullptr;
 }
 

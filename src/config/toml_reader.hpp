@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "platform/base/result.hpp"
@@ -16,15 +15,16 @@ struct TomlValue {
   enum class Kind { kTable, kArray, kText, kInteger, kNumber, kBoolean, kTime };
 
   Kind kind = Kind::kTable;
-  int line = 0;  // from 1; 0: not from a file
+  std::string name;  // its key, when it is a table's member
+  int line = 0;      // from 1; 0: not from a file
   std::string text;
   std::int64_t integer = 0;
   double number = 0;  // of kInteger too
   bool boolean = false;
-  std::vector<std::pair<std::string, TomlValue>> members;  // of a table, in the order of lines
-  std::vector<TomlValue> elements;                         // of an array
+  std::vector<TomlValue> members;   // of a table, in the order of lines
+  std::vector<TomlValue> elements;  // of an array
 
-  const TomlValue* find(std::string_view name) const;  // null when the table has no such member
+  const TomlValue* find(std::string_view key) const;  // null when the table has no such member
 };
 
 const char* to_string(TomlValue::Kind kind);  // "a table", "a whole number" …
