@@ -38,9 +38,8 @@ class OwnMotion {
     TimePoint time;
     Twist<LeftCamera> twist;
   };
-  const Note& note_back(int i) const {
-    return notes_[static_cast<std::size_t>((next_ - 1 - i + 2 * kSize) % kSize)];
-  }
+  const Note& back(int i) const;  // the i-th newest
+  int index_at(TimePoint time) const;
   std::array<Note, kSize> notes_ = {};
   int next_ = 0;
   int count_ = 0;
