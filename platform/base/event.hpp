@@ -27,7 +27,7 @@ enum class EventCode : std::uint16_t {};  // src/telemetry/event_codes.hpp has t
 struct Event {
   EventCode code = {};
   Severity severity = Severity::kInfo;
-  TimePoint time;
+  TimePoint time = {};
   std::array<double, 3> args = {};  // whole numbers are exact up to 2⁵³
 };
 

@@ -2,6 +2,8 @@
 // one; who does the work (this thread, a pinned pool) is the caller's choice. RT safe.
 #pragma once
 
+#include <type_traits>
+
 namespace gannet {
 
 class Parallel {
@@ -14,7 +16,10 @@ class Parallel {
 
   template <class F>
   void for_each(int n, F&& f) {
-    run(n, [](void* c, int i, int w) { (*static_cast<F*>(c))(i, w); }, &f);
+    using G = std::remove_reference_t<F>;
+    run(
+        n, [](void* c, int i, int w) { (*static_cast<G*>(c))(i, w); },
+        const_cast<void*>(static_cast<const void*>(&f)));
   }
 };
 

@@ -14,8 +14,8 @@
 namespace gannet::linux_os {
 namespace {
 
-// Enough for Eigen's fixed matrices and libpng; small, because locked memory counts it whole.
-constexpr std::size_t kStackBytes = 1024 * 1024;
+// Small, because locked memory counts it whole; a sanitizer takes a good part of it for itself.
+constexpr std::size_t kStackBytes = 2 * 1024 * 1024;
 constexpr std::size_t kPrefaultBytes = 256 * 1024;
 
 enum Refused : unsigned { kPriority = 1, kCore = 2, kMemory = 4 };
