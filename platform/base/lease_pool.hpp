@@ -60,6 +60,17 @@ class LeasePool {
     return Lease(this, slot);
   }
 
+  // This very slot, where the device says which (V4L2, shared memory); invalid when it is out.
+  Lease lend_slot(int slot) {
+    if (!is_free(slot)) return {};
+    free_.fetch_and(~(std::uint64_t{1} << slot), std::memory_order_relaxed);
+    return Lease(this, slot);
+  }
+  // Whether the slot is home. Acquire: what its last holder read is done.
+  bool is_free(int slot) const {
+    return (free_.load(std::memory_order_acquire) >> slot & 1) != 0;
+  }
+
   int slots() const { return slots_; }
   int free_count() const {
     return __builtin_popcountll(free_.load(std::memory_order_relaxed));
