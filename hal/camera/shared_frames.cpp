@@ -3,13 +3,14 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <bit>
 #include <cerrno>
-#include <cstring>
 
 namespace gannet::hal {
 namespace {
 
-constexpr std::array<char, 8> kMagic = {'G', 'A', 'N', 'N', 'E', 'T', 'F', 'R'};
+constexpr auto kMagic =
+    std::bit_cast<std::uint64_t>(std::array<char, 8>{'G', 'A', 'N', 'N', 'E', 'T', 'F', 'R'});
 constexpr std::uint32_t kFormat = 1;
 constexpr std::size_t kPage = 4096;
 constexpr int kMaxSlots = 64;  // of a LeasePool
@@ -76,9 +77,8 @@ Result<SharedFramesWriter> SharedFramesWriter::create(const std::string& name,
   header.slots = static_cast<std::uint32_t>(format.slots);
   header.total_bytes = bytes;
   // The file has its name already. The magic comes last: who opens it earlier finds none, refuses
-  // the file and tries again.
-  std::atomic_thread_fence(std::memory_order_release);
-  header.magic = kMagic;
+  // the file and tries again. Release: pairs with the acquire in check_shared_frames.
+  header.magic.store(kMagic, std::memory_order_release);
   return writer;
 }
 
@@ -163,8 +163,8 @@ void SharedFramesWriter::publish(TimePoint capture, TimePoint available) {
 Result<SharedFramesFormat> check_shared_frames(std::span<const std::byte> bytes) {
   if (bytes.size() < sizeof(SharedHeader)) return Error{"too short for a header"};
   const auto& header = *reinterpret_cast<const SharedHeader*>(bytes.data());
-  if (header.magic != kMagic) return Error{"not a file of shared frames"};
-  std::atomic_thread_fence(std::memory_order_acquire);  // pairs with the writer's, before its magic
+  if (header.magic.load(std::memory_order_acquire) != kMagic)
+    return Error{"not a file of shared frames"};
   if (header.format != kFormat)
     return Error{"format " + std::to_string(header.format) + ", this program knows format 1"};
   SharedFramesFormat format;

@@ -15,7 +15,6 @@
 // spoil pixels, or stop the daemon by truncating it: it is a file of one user, mode 0600.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -34,7 +33,7 @@ namespace gannet::hal {
 // each slot, as layout_of lays them out.
 
 struct SharedHeader {
-  std::array<char, 8> magic;
+  std::atomic<std::uint64_t> magic;  // the letters GANNETFR, written last
   std::uint32_t format;
   std::uint32_t width, height;  // pixels
   std::uint32_t pixel_format, matrix, range;
@@ -147,7 +146,7 @@ class SharedFramesReader {
   std::uint64_t missed_ = 0;
 };
 
-// Checks the bytes of a mapping and tells its format. Any bytes may be given.
+// Checks the bytes of a mapping (aligned to 64) and tells its format. Any bytes may be given.
 Result<SharedFramesFormat> check_shared_frames(std::span<const std::byte> bytes);
 
 }  // namespace gannet::hal
