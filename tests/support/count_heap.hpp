@@ -1,0 +1,48 @@
+// Counts heap calls of this thread, to prove that a call makes none. Included by one source of a
+// test binary, once. Under the sanitizers, which bring their own heap, it counts nothing and says
+// so.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define GANNET_COUNTS_HEAP 0
+#else
+#define GANNET_COUNTS_HEAP 1
+#endif
+
+namespace gannet::test {
+
+inline thread_local std::uint64_t heap_calls = 0;
+inline constexpr bool kCountsHeap = GANNET_COUNTS_HEAP == 1;
+
+}  // namespace gannet::test
+
+#if GANNET_COUNTS_HEAP
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* old, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+void __libc_free(void* old);
+
+void* malloc(std::size_t size) noexcept {
+  ++gannet::test::heap_calls;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) noexcept {
+  ++gannet::test::heap_calls;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* old, std::size_t size) noexcept {
+  ++gannet::test::heap_calls;
+  return __libc_realloc(old, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  ++gannet::test::heap_calls;
+  return __libc_memalign(alignment, size);
+}
+void free(void* old) noexcept { __libc_free(old); }
+}
+#endif
