@@ -1,0 +1,322 @@
+#include "src/world/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <optional>
+
+#include "platform/base/command_line.hpp"
+#include "src/world/action.hpp"
+
+namespace gannet::world {
+namespace {
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDegree = 3.14159265358979323846 / 180;
+// At the goal: closer than this.
+constexpr double kSettled_m = 0.020;
+constexpr double kSettled_rad = 3 * kDegree;
+
+bool inside(const TraceRow& row, const Window& window) {
+  return row.time_s >= window.from_s && row.time_s <= window.until_s;
+}
+
+// The root of the mean square of what `of` says of each row; rows for which it says nothing do not
+// count.
+template <class Of>
+double rms(const Trace& trace, const Window& window, Of of) {
+  double sum = 0;
+  int count = 0;
+  for (const TraceRow& row : trace.rows) {
+    if (!inside(row, window)) continue;
+    const std::optional<double> value = of(row);
+    if (!value) continue;
+    sum += *value * *value;
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : kNothing;
+}
+
+template <class Of>
+double largest(const Trace& trace, const Window& window, Of of) {
+  double most = kNothing;
+  for (const TraceRow& row : trace.rows)
+    if (inside(row, window)) most = std::fmax(most, of(row));
+  return most;
+}
+
+template <int kAxis>
+double rms_axis_mm(const Trace& trace, const Window& window) {
+  return rms(trace, window,
+             [](const TraceRow& row) { return std::optional<double>(1000 * row.error_m[kAxis]); });
+}
+
+double rms_mm(const Trace& trace, const Window& window) {
+  return rms(trace, window,
+             [](const TraceRow& row) { return std::optional<double>(1000 * row.error_m.norm()); });
+}
+
+double rms_yaw_deg(const Trace& trace, const Window& window) {
+  return rms(trace, window,
+             [](const TraceRow& row) { return std::optional<double>(row.error_rad / kDegree); });
+}
+
+double worst_mm(const Trace& trace, const Window& window) {
+  return largest(trace, window, [](const TraceRow& row) { return 1000 * row.error_m.norm(); });
+}
+
+bool settled(const TraceRow& row) {
+  return row.error_m.norm() <= kSettled_m && std::abs(row.error_rad) <= kSettled_rad;
+}
+
+double settle_s(const Trace& trace, const Window& window) {
+  const double start = std::max(window.from_s, trace.time_of("arm"));
+  double since = kNothing;
+  for (const TraceRow& row : trace.rows) {
+    if (row.time_s < start || row.time_s > window.until_s) continue;
+    if (!settled(row))
+      since = kNothing;
+    else if (std::isnan(since))
+      since = row.time_s;
+  }
+  return since - start;
+}
+
+// A row that brings a newly heard frame; others repeat what was heard before.
+template <class Visit>
+void each_frame(const Trace& trace, const Window& window, Visit visit) {
+  std::uint64_t last = 0;
+  for (const TraceRow& row : trace.rows) {
+    const bool fresh = row.heard.frame != last;
+    last = row.heard.frame;
+    if (fresh && inside(row, window)) visit(row);
+  }
+}
+
+template <class Of>
+double rms_found(const Trace& trace, const Window& window, Of of) {
+  double sum = 0;
+  int count = 0;
+  each_frame(trace, window, [&](const TraceRow& row) {
+    if (!row.heard.found) return;
+    const double value = of(row);
+    sum += value * value;
+    ++count;
+  });
+  return count > 0 ? std::sqrt(sum / count) : kNothing;
+}
+
+template <int kAxis>
+double estimate_axis_mm(const Trace& trace, const Window& window) {
+  return rms_found(trace, window, [](const TraceRow& row) {
+    return 1000 *
+           (row.heard.left_from_target.translation[kAxis] - row.at_capture.translation[kAxis]);
+  });
+}
+
+double estimate_deg(const Trace& trace, const Window& window) {
+  return rms_found(trace, window, [](const TraceRow& row) {
+    return row.heard.left_from_target.rotation.angularDistance(row.at_capture.rotation) / kDegree;
+  });
+}
+
+double found_share(const Trace& trace, const Window& window) {
+  int frames = 0, found = 0;
+  each_frame(trace, window, [&](const TraceRow& row) {
+    ++frames;
+    found += row.heard.found;
+  });
+  return frames > 0 ? static_cast<double>(found) / frames : kNothing;
+}
+
+double fitness(const Trace& trace, const Window& window) {
+  double sum = 0;
+  int count = 0;
+  each_frame(trace, window, [&](const TraceRow& row) {
+    if (!row.heard.found) return;
+    sum += row.heard.fitness;
+    ++count;
+  });
+  return count > 0 ? sum / count : kNothing;
+}
+
+double throttle(const Trace& trace, const Window& window) {
+  return largest(trace, window, [](const TraceRow& row) {
+    double most = 0;
+    for (const double t : row.throttle) most = std::max(most, std::abs(t));
+    return most;
+  });
+}
+
+double in_view(const Trace& trace, const Window& window) {
+  int rows = 0, seen = 0;
+  for (const TraceRow& row : trace.rows) {
+    if (!inside(row, window)) continue;
+    ++rows;
+    seen += row.in_view;
+  }
+  return rows > 0 ? static_cast<double>(seen) / rows : kNothing;
+}
+
+double releases(const Trace& trace, const Window& window) {
+  int count = 0;
+  bool before = false;
+  for (const TraceRow& row : trace.rows) {
+    count += row.release && !before && inside(row, window);
+    before = row.release;
+  }
+  return count;
+}
+
+bool still(const TraceRow& row) {
+  return !row.armed &&
+         std::all_of(row.throttle.begin(), row.throttle.end(), [](double t) { return t == 0; });
+}
+
+// From the event to the first moment at which the drives are disarmed and told to stop, provided
+// that they stay so as long as the e-stop is pressed; ms.
+double stop_ms(const Trace& trace, const std::string& event) {
+  const double start = trace.time_of(event);
+  if (start < 0) return kNothing;
+  double since = kNothing;
+  for (const TraceRow& row : trace.rows) {
+    if (row.time_s < start) continue;
+    if (still(row)) {
+      if (std::isnan(since)) since = row.time_s;
+    } else if (!std::isnan(since)) {
+      if (row.estop) return kNothing;  // it moved again
+      break;
+    }
+  }
+  return 1000 * (since - start);
+}
+
+std::string state_at(const Trace& trace, double time_s) {
+  std::string state = "nothing heard";
+  for (const TraceRow& row : trace.rows)
+    if (row.time_s <= time_s && !row.heard.supervisor.empty()) state = row.heard.supervisor;
+  return state;
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return std::isnan(value) ? "never" : text;
+}
+
+const Measure* find_measure(const std::string& name) {
+  for (const Measure& measure : measures())
+    if (name == measure.name) return &measure;
+  return nullptr;
+}
+
+Error not_understood(std::string_view text, const std::string& why) {
+  return Error{"check '" + std::string(text) + "': " + why};
+}
+
+// "after 3 s", "until 8 s", "at 5 s" …
+bool read_window(const std::vector<std::string>& words, std::size_t at, Window& window) {
+  while (at + 2 < words.size() && words[at + 2] == "s") {
+    const auto seconds = number_from_text(words[at + 1]);
+    if (!seconds) return false;
+    if (words[at] == "after")
+      window.from_s = *seconds;
+    else if (words[at] == "until")
+      window.until_s = *seconds;
+    else
+      return false;
+    at += 3;
+  }
+  return at == words.size();
+}
+
+Result<Check> parse_permit(const std::vector<std::string>& words, std::string_view text,
+                           Check check) {
+  const auto limit = words.size() > 6 ? number_from_text(words[3]) : std::nullopt;
+  if (!limit || words[1] != "none" || words[2] != "within" || words[4] != "ms" || words[5] != "of")
+    return not_understood(text, "the form is 'permit none within 20 ms of press estop'");
+  check.kind = Check::Kind::kPermitNone;
+  check.limit = *limit;
+  for (std::size_t i = 6; i < words.size(); ++i) check.word += (i > 6 ? " " : "") + words[i];
+  const auto action = parse_action(check.word);
+  if (!action) return not_understood(text, action.error().text);
+  return check;
+}
+
+Result<Check> parse_state(const std::vector<std::string>& words, std::string_view text,
+                          Check check) {
+  const auto time = words.size() == 6 ? number_from_text(words[4]) : std::nullopt;
+  if (!time || words[1] != "is" || words[3] != "at" || words[5] != "s")
+    return not_understood(text, "the form is 'state is stopped at 5 s'");
+  check.kind = Check::Kind::kState;
+  check.word = words[2];
+  check.window.from_s = *time;
+  return check;
+}
+
+}  // namespace
+
+const std::vector<Measure>& measures() {
+  static const std::vector<Measure> all = {
+      {"settle_s", "time from arming until it stays within 20 mm and 3 degrees", settle_s},
+      {"rms_x_mm", "the truth's distance from the goal along x of the hand", rms_axis_mm<0>},
+      {"rms_y_mm", "the same along y", rms_axis_mm<1>},
+      {"rms_z_mm", "the same along z", rms_axis_mm<2>},
+      {"rms_mm", "the same in space", rms_mm},
+      {"rms_yaw_deg", "the truth's turn away from the goal", rms_yaw_deg},
+      {"worst_mm", "the largest distance from the goal", worst_mm},
+      {"estimate_x_mm", "estimate minus truth along x of the left camera, rms of the found",
+       estimate_axis_mm<0>},
+      {"estimate_y_mm", "the same along y", estimate_axis_mm<1>},
+      {"estimate_z_mm", "the same along z", estimate_axis_mm<2>},
+      {"estimate_deg", "angle between estimated and true attitude, rms of the found", estimate_deg},
+      {"found_share", "share of the frames in which the target was found", found_share},
+      {"fitness", "mean of the found", fitness},
+      {"throttle", "largest throttle that any drive obeyed, 0 to 1", throttle},
+      {"in_view", "share of the time with the whole target in both images", in_view},
+      {"releases", "how often the release line fired", releases},
+  };
+  return all;
+}
+
+Result<Check> parse_check(std::string_view text) {
+  const std::vector<std::string> words = words_of(text);
+  Check check;
+  for (const std::string& word : words) check.text += (check.text.empty() ? "" : " ") + word;
+  if (words.empty()) return not_understood(text, "it is empty");
+  if (words[0] == "permit") return parse_permit(words, text, check);
+  if (words[0] == "state") return parse_state(words, text, check);
+  check.measure = find_measure(words[0]);
+  if (check.measure == nullptr) {
+    std::string names;
+    for (const Measure& measure : measures()) names += std::string(" ") + measure.name;
+    return not_understood(text, "'" + words[0] + "' is no measure; there are:" + names);
+  }
+  const auto limit = words.size() > 2 ? number_from_text(words[2]) : std::nullopt;
+  if (!limit || words[1].size() != 1 || std::string("<>=").find(words[1]) == std::string::npos ||
+      !read_window(words, 3, check.window))
+    return not_understood(text, "the form is 'rms_x_mm < 10 after 10 s until 20 s'");
+  check.comparison = words[1][0];
+  check.limit = *limit;
+  return check;
+}
+
+Verdict judge(const Check& check, const Trace& trace) {
+  if (check.kind == Check::Kind::kState) {
+    const std::string state = state_at(trace, check.window.from_s);
+    return {check.text, state, state == check.word};
+  }
+  if (check.kind == Check::Kind::kPermitNone) {
+    const double ms = stop_ms(trace, check.word);
+    return {check.text, std::isnan(ms) ? "never" : number(ms) + " ms", ms <= check.limit};
+  }
+  const double value = check.measure->value(trace, check.window);
+  const bool passed = check.comparison == '<'   ? value < check.limit
+                      : check.comparison == '>' ? value > check.limit
+                                                : value == check.limit;
+  return {check.text, number(value), passed};
+}
+
+}  // namespace gannet::world
