@@ -18,6 +18,13 @@ class Optimiser {
   // Forgets everything and starts from nothing with this seed.
   virtual void reset(std::uint64_t seed) = 0;
 
+  // What the coming frames may cost, in full evaluations, and what one costs at each level of
+  // detail (cost[0] = 1). Optimisers that know no levels need not care.
+  virtual void plan(double evaluations, std::span<const double> cost) {
+    static_cast<void>(evaluations);
+    static_cast<void>(cost);
+  }
+
   // A new frame: scores learnt before are stale. Persistent populations keep their members and
   // expect them to be scored again; hint (empty or of dimension() genes) is the predicted answer.
   virtual void begin_frame(std::span<const float> hint) = 0;

@@ -15,7 +15,8 @@ struct TrackConfig {
   int evaluations_tracking = 2000;     // while locked
   int seed = 1;
   int model_points = 800;              // wanted S_in points of a model
-  double found_fitness = 0.5;          // least fitness that counts as found
+  double found_fitness = 0.5;          // least correlation that counts as found
+  double found_votes = 0.3;            // for vote fitnesses: least share of a perfect score
   double z_min_m = 0.4;
   double z_max_m = 1.0;
   double half_width_x_m = 0;           // 0: the common field of view

@@ -1,0 +1,308 @@
+#include "src/track/recogniser.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "src/search/optimiser_kinds.hpp"
+#include "src/vision/fitness_kinds.hpp"
+#include "src/vision/hue_value.hpp"
+#include "src/vision/kernel_choice.hpp"
+
+namespace gannet::track {
+namespace {
+
+constexpr int kBatch = 512;      // candidates a round
+constexpr int kChunk = 16;       // of them a piece of parallel work
+constexpr double kLeastSizePx = 9;    // of the target on a coarse level, √area
+constexpr double kSpacingPx = 1.8;    // of a coarse level's points, in that level's pixels
+constexpr double kRectanglePoints = 1500;
+
+double radians(double degrees) { return degrees * 3.14159265358979323846 / 180; }
+
+SearchVolume volume_of(const TrackConfig& c) {
+  return {c.z_min_m,        c.z_max_m,           c.half_width_x_m,
+          c.half_width_y_m, radians(c.tilt_deg), radians(c.roll_deg)};
+}
+
+}  // namespace
+
+Recogniser::Recogniser(const TrackConfig& config, const StereoRig& rig, TargetKind kind,
+                       int max_workers)
+    : config_(config),
+      rig_(rig),
+      kind_(kind),
+      space_(rig, volume_of(config)),
+      genes_(kBatch * 8),
+      hypotheses_(kBatch),
+      scores_(kBatch) {
+  const auto n = static_cast<std::size_t>(max_points());
+  points_.reserve(n);
+  coarse_.reserve(n);
+  for (vision::PointSet& level : target_.level) level.reserve(max_points());
+  for (int w = 0; w < max_workers; ++w) scratch_.emplace_back(max_points());
+  target_.unscaled = kind == TargetKind::kRectangle;
+  if (target_.unscaled) space_.fix_ray(Eigen::Vector3d::UnitZ());
+}
+
+Result<std::unique_ptr<Recogniser>> Recogniser::create(const TrackConfig& config,
+                                                       const StereoRig& rig, TargetKind kind,
+                                                       int max_workers, std::string_view kernels) {
+  const vision::Kernels* chosen = vision::find_kernels(kernels);
+  if (chosen == nullptr) {
+    return Error{"no kernels \"" + std::string(kernels) + "\" on this processor"};
+  }
+  if (!(config.z_min_m > 0) || !(config.z_max_m > config.z_min_m)) {
+    return Error{"the search range in z must be positive and increasing"};
+  }
+  std::unique_ptr<Recogniser> made(new Recogniser(config, rig, kind, max_workers));
+  auto fitness =
+      vision::make_fitness(config.fitness, kind == TargetKind::kRectangle, rig, *chosen);
+  if (!fitness) return fitness.error();
+  made->fitness_ = std::move(*fitness);
+  auto optimiser =
+      search::make_optimiser(config.optimiser, made->space_.dimension(), config.search,
+                             static_cast<std::uint64_t>(config.seed));
+  if (!optimiser) return optimiser.error();
+  made->optimiser_ = std::move(*optimiser);
+  return made;
+}
+
+vision::PlaneNeeds Recogniser::needs() const {
+  // The refinement samples smoothed bytes, which every frame has.
+  return fitness_->needs();
+}
+
+// Levels on which the target is still large enough to be told from others.
+bool Recogniser::assign_levels(double projected_size_px, double spacing_px) {
+  if (points_.size() > static_cast<std::size_t>(max_points())) return false;
+  target_.levels = 1;
+  while (target_.levels < vision::kLevels &&
+         projected_size_px / (1 << target_.levels) >= kLeastSizePx) {
+    ++target_.levels;
+  }
+  for (int l = 0; l < target_.levels; ++l) {
+    const double factor = l == 0 ? 1 : std::max(1.0, kSpacingPx * (1 << l) / spacing_px);
+    vision::coarsen(points_, spacing_, factor, coarse_);
+    target_.level[static_cast<std::size_t>(l)].assign(coarse_, background_,
+                                                      target_.background_hue, target_.unscaled);
+  }
+  std::array<double, vision::kLevels> cost = {};
+  const int levels = fitness_->levels(target_);
+  for (int l = 0; l < levels; ++l) cost[static_cast<std::size_t>(l)] = target_.cost(l);
+  optimiser_->plan(config_.evaluations, {cost.data(), static_cast<std::size_t>(levels)});
+  has_target_ = true;
+  return true;
+}
+
+bool Recogniser::set_model(const vision::PatchModel& model) {
+  if (model.points.size() > static_cast<std::size_t>(max_points())) return false;
+  points_ = model.points;
+  background_ = model.background;
+  target_.background_hue = model.background_hue;
+  spacing_ = model.spacing_m;
+  size_m_ = model.size_m;
+  const double f = rig_.left.fx;
+  const double area = model.spacing_m * model.spacing_m * model.inside_count;
+  const double middle = std::sqrt(config_.z_min_m * config_.z_max_m);
+  optimiser_->reset(static_cast<std::uint64_t>(config_.seed));
+  return assign_levels(std::sqrt(area) * f / config_.z_max_m, spacing_ * f / middle);
+}
+
+bool Recogniser::set_rectangle(const vision::Rectangle& r, const vision::PreparedFrame& frame) {
+  if (!refresh_rectangle(r, frame)) return false;
+  optimiser_->reset(static_cast<std::uint64_t>(config_.seed));
+  return true;
+}
+
+bool Recogniser::refresh_rectangle(const vision::Rectangle& r,
+                                   const vision::PreparedFrame& frame) {
+  const vision::EyePlanes& eye = frame.left();
+  const bool fits = r.width >= 8 && r.height >= 8 && r.x >= 0 && r.y >= 0 &&
+                    r.width <= eye.width && r.height <= eye.height &&
+                    r.x <= eye.width - r.width && r.y <= eye.height - r.height;
+  if (!fits || kind_ != TargetKind::kRectangle) return false;
+  rectangle_ = r;
+  const double area = static_cast<double>(r.width) * r.height;
+  const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(area / kRectanglePoints))));
+  const int band = std::max(step, static_cast<int>(0.15 * std::sqrt(area)));
+  const Eigen::Vector2d centre(r.x + (r.width - 1) / 2.0, r.y + (r.height - 1) / 2.0);
+  centre_ray_ = rig_.left.ray(centre);
+  space_.fix_ray(centre_ray_);
+  points_.clear();
+  // S_out is Pb3DP's; the correlation goes without: what is beside the patch may lie elsewhere.
+  const bool with_band = !fitness_->needs().packed;
+  for (const bool inside : {true, false}) {
+    if (!inside && !with_band) break;
+    const int margin = inside ? 0 : band;
+    for (int y = r.y + step / 2 - margin / step * step; y < r.y + r.height + margin; y += step) {
+      for (int x = r.x + step / 2 - margin / step * step; x < r.x + r.width + margin; x += step) {
+        if (x < 0 || y < 0 || x >= eye.width || y >= eye.height) continue;
+        const bool in_rectangle =
+            x >= r.x && y >= r.y && x < r.x + r.width && y < r.y + r.height;
+        if (in_rectangle != inside || points_.size() >= points_.capacity()) continue;
+        const Eigen::Vector3d ray = rig_.left.ray({x, y});
+        const auto at = static_cast<std::size_t>(y * eye.width + x);
+        points_.push_back({static_cast<float>(ray.x()), static_cast<float>(ray.y()), inside,
+                           {static_cast<float>(eye.smooth[0][at]),
+                            static_cast<float>(eye.smooth[1][at]),
+                            static_cast<float>(eye.smooth[2][at])}});
+      }
+    }
+  }
+  spacing_ = step / rig_.left.fx;
+  return assign_levels(std::sqrt(area), step);
+}
+
+void Recogniser::score_batch(const vision::PreparedFrame& frame, int level, int n,
+                             Parallel& parallel) {
+  const int dimension = space_.dimension();
+  parallel.for_each((n + kChunk - 1) / kChunk, [&](int chunk, int worker) {
+    const int first = chunk * kChunk;
+    const auto count = static_cast<std::size_t>(std::min(kChunk, n - first));
+    const auto at = static_cast<std::size_t>(first);
+    for (std::size_t i = 0; i < count; ++i) {
+      hypotheses_[at + i] = space_.decode(
+          {genes_.data() + (at + i) * static_cast<std::size_t>(dimension),
+           static_cast<std::size_t>(dimension)});
+    }
+    fitness_->score(target_, frame, level, {hypotheses_.data() + at, count},
+                    {scores_.data() + at, count}, scratch_[static_cast<std::size_t>(worker)]);
+  });
+}
+
+Recognition Recogniser::recognise(const vision::PreparedFrame& frame,
+                                  const Transform<LeftCamera, Target>* hint,
+                                  const Budget& budget, Parallel& parallel) {
+  Recognition none;
+  none.reason = TrackReason::kNoTarget;
+  if (!has_target_) return none;
+  const auto dimension = static_cast<std::size_t>(space_.dimension());
+  const double wanted = budget.evaluations > 0 ? budget.evaluations : config_.evaluations;
+  const int levels = fitness_->levels(target_);
+  std::array<double, vision::kLevels> cost = {};
+  for (int l = 0; l < levels; ++l) cost[static_cast<std::size_t>(l)] = target_.cost(l);
+  optimiser_->plan(wanted, {cost.data(), static_cast<std::size_t>(levels)});
+
+  std::array<float, 8> best = {};
+  if (hint != nullptr) space_.encode(*hint, best);
+  optimiser_->begin_frame({best.data(), hint != nullptr ? dimension : 0});
+  double spent = 0;
+  while (spent < wanted) {
+    if (budget.stop != nullptr && budget.stop(budget.context)) break;
+    const int level = std::min(optimiser_->level(), levels - 1);
+    const double one = target_.cost(level);
+    const auto room = std::min<std::size_t>(
+        kBatch, static_cast<std::size_t>(std::max(1.0, std::ceil((wanted - spent) / one))));
+    const int n = optimiser_->propose({genes_.data(), room * dimension});
+    score_batch(frame, level, n, parallel);
+    optimiser_->learn({scores_.data(), static_cast<std::size_t>(n)});
+    spent += n * one;
+  }
+  optimiser_->best(best);
+  const vision::Hypothesis answer = space_.decode({best.data(), dimension});
+  float score = 0;
+  fitness_->score(target_, frame, 0, {&answer, 1}, {&score, 1}, scratch_[0]);
+  return finish(frame, answer, score, spent + 1);
+}
+
+double Recogniser::found_threshold() const {
+  if (fitness_->needs().packed) return config_.found_fitness;
+  if (target_.unscaled) return config_.found_votes;
+  // Photo-model votes: a share of what a perfect match would score.
+  const vision::PointSet& set = target_.level[0];
+  return config_.found_votes * (2.0 * set.inside + 0.1 * set.outside) / set.points();
+}
+
+Recognition Recogniser::finish(const vision::PreparedFrame& frame,
+                               const vision::Hypothesis& best, float best_score,
+                               double evaluations) {
+  Recognition out;
+  out.left_from_target = best.pose();
+  out.fitness = static_cast<double>(best_score);
+  out.evaluations = evaluations;
+  const vision::PointSet& points = target_.level[0];
+  const vision::RefineOptions options;
+  if (target_.unscaled) {
+    // The same plane, with the smallest rotation to its normal.
+    const Eigen::Vector3d normal = out.left_from_target.rotation * Eigen::Vector3d::UnitZ();
+    out.left_from_target = vision::pose_of_plane(
+        normal / normal.dot(out.left_from_target.translation), centre_ray_);
+  }
+  const vision::Refinement refined =
+      target_.unscaled ? vision::refine_plane(rig_, points, frame, out.left_from_target,
+                                              centre_ray_, options)
+                       : vision::refine_pose(rig_, points, frame, out.left_from_target, options);
+  bool has_covariance = refined.ok;
+  if (refined.ok) {
+    const vision::Hypothesis candidate = vision::Hypothesis::from(refined.left_from_target);
+    float score = 0;
+    fitness_->score(target_, frame, 0, {&candidate, 1}, {&score, 1}, scratch_[0]);
+    out.evaluations += 1;
+    // Nearest-pixel scores are rough by about this much.
+    constexpr double kRough = 0.01;
+    out.covariance = refined.covariance;
+    if (static_cast<double>(score) >= out.fitness - kRough) {
+      out.left_from_target = refined.left_from_target;
+      out.fitness = static_cast<double>(score);
+    }
+  }
+  out.found = out.fitness >= found_threshold() && has_covariance;
+  out.reason = out.found ? TrackReason::kNone : TrackReason::kNotFound;
+  out.size_m = size_m_;
+  if (target_.unscaled) {
+    const Eigen::Vector3d n = out.left_from_target.rotation * Eigen::Vector3d::UnitZ();
+    const double d = n.dot(out.left_from_target.translation);
+    const auto on_plane = [&](double u, double v) -> Eigen::Vector3d {
+      const Eigen::Vector3d ray = rig_.left.ray({u, v});
+      return ray * d / n.dot(ray);
+    };
+    const double left = rectangle_.x - 0.5, right = left + rectangle_.width;
+    const double top = rectangle_.y - 0.5, bottom = top + rectangle_.height;
+    const double mid_u = (left + right) / 2, mid_v = (top + bottom) / 2;
+    out.size_m = {(on_plane(right, mid_v) - on_plane(left, mid_v)).norm(),
+                  (on_plane(mid_u, bottom) - on_plane(mid_u, top)).norm()};
+  }
+  return out;
+}
+
+void Recogniser::score(const vision::PreparedFrame& frame,
+                       std::span<const vision::Hypothesis> hypotheses, std::span<float> scores,
+                       Parallel& parallel) {
+  const int n = static_cast<int>(hypotheses.size());
+  parallel.for_each((n + kChunk - 1) / kChunk, [&](int chunk, int worker) {
+    const auto first = static_cast<std::size_t>(chunk * kChunk);
+    const std::size_t count = std::min<std::size_t>(kChunk, hypotheses.size() - first);
+    fitness_->score(target_, frame, 0, hypotheses.subspan(first, count),
+                    scores.subspan(first, count), scratch_[static_cast<std::size_t>(worker)]);
+  });
+}
+
+bool Recogniser::to_model(const Transform<LeftCamera, Target>& pose,
+                          vision::PatchModel& out) const {
+  if (!target_.unscaled || !has_target_) return false;
+  const auto target_from_left = pose.inverse();
+  const Eigen::Vector3d n = pose.rotation * Eigen::Vector3d::UnitZ();
+  const double d = n.dot(pose.translation);
+  out.points.clear();
+  out.inside_count = 0;
+  for (const vision::ModelPoint& p : points_) {
+    if (!p.inside) continue;
+    const Eigen::Vector3d ray(static_cast<double>(p.x_m), static_cast<double>(p.y_m), 1);
+    const double along = n.dot(ray);
+    if (along * d <= 0) return false;
+    const Eigen::Vector3d on_target = target_from_left(ray * (d / along));
+    vision::ModelPoint q = p;
+    q.x_m = static_cast<float>(on_target.x());
+    q.y_m = static_cast<float>(on_target.y());
+    out.points.push_back(q);
+    ++out.inside_count;
+  }
+  out.spacing_m = spacing_ * pose.translation.z();
+  out.background = background_;
+  out.background_hue = target_.background_hue;
+  return out.inside_count >= 16;
+}
+
+}  // namespace gannet::track

@@ -1,0 +1,78 @@
+#include "src/vision/correlation_fitness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gannet::vision {
+
+CorrelationFitness::CorrelationFitness(const StereoRig& rig, const Kernels& kernels,
+                                       const CorrelationOptions& options)
+    : left_(rig.left, nullptr),
+      right_(rig.right, &rig.right_from_left),
+      kernels_(kernels),
+      options_(options) {}
+
+void CorrelationFitness::score(const TargetPoints& target, const PreparedFrame& frame, int level,
+                               std::span<const Hypothesis> hypotheses, std::span<float> scores,
+                               Scratch& scratch) const {
+  const auto l = static_cast<std::size_t>(level);
+  const PointSet& set = target.level[l];
+  const PackedPlane& left = frame.left().packed[l];
+  const PackedPlane& right = frame.right().packed[l];
+  for (std::size_t k = 0; k < hypotheses.size(); ++k) {
+    const Hypothesis& q = hypotheses[k];
+    if (target.unscaled) {
+      const PlaneView view = right_.ray_view(q, level, right.width, right.height, right.guard);
+      scores[k] =
+          static_cast<float>(eye_score(set, right_, frame.right(), level, view, scratch));
+      continue;
+    }
+    const double a =
+        eye_score(set, left_, frame.left(), level,
+                  left_.view(q, level, left.width, left.height, left.guard), scratch);
+    const double b =
+        eye_score(set, right_, frame.right(), level,
+                  right_.view(q, level, right.width, right.height, right.guard), scratch);
+    scores[k] = static_cast<float>((a + b) / 2);
+  }
+}
+
+double CorrelationFitness::eye_score(const PointSet& set, const CameraModel& camera,
+                                     const EyePlanes& eye, int level, const PlaneView& view,
+                                     Scratch& scratch) const {
+  std::int32_t* index = scratch.index.data();
+  const int n = camera.project(kernels_, set.x.data(), set.y.data(), set.total_padded, view, level,
+                               index);
+  const double share = static_cast<double>(n) / set.points();
+  if (share < static_cast<double>(options_.least_share)) return share - 1;
+  const bool all_visible = n == set.points();
+  CorrelationSums s;
+  kernels_.correlate(eye.packed[static_cast<std::size_t>(level)].cells, index, set.total_padded,
+                     set.correlation.data(), all_visible, s);
+  double sum = 0;
+  double weights = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::int64_t sum_m = all_visible ? set.sum[c] : s.m[c];
+    const std::int64_t sum_mm = all_visible ? set.sum_squares[c] : s.mm[c];
+    // n² times the covariance and the variances, exact.
+    const auto cov = static_cast<double>(std::int64_t{n} * s.im[c] - s.i[c] * sum_m);
+    const auto var_i =
+        static_cast<double>(std::int64_t{n} * s.ii[c] - std::int64_t{s.i[c]} * s.i[c]);
+    const auto var_m = static_cast<double>(std::int64_t{n} * sum_mm - sum_m * sum_m);
+    const double n2 = static_cast<double>(n) * n;
+    const double floor = static_cast<double>(c == 0 ? options_.floor_y : options_.floor_uv);
+    const double weight = static_cast<double>(c == 0 ? options_.weight_y : options_.weight_uv);
+    const double step_i = static_cast<double>(eye.grey_per_step[c]);
+    const double step_m = static_cast<double>(set.grey_per_step[c]);
+    const double floor_i = n2 * (floor / step_i) * (floor / step_i);
+    const double floor_m = n2 * (floor / step_m) * (floor / step_m);
+    const double grey_m = var_m / n2 * step_m * step_m;
+    const double w = grey_m / (grey_m + weight * weight);
+    sum += w * cov / std::sqrt((var_i + floor_i) * (var_m + floor_m));
+    weights += w;
+  }
+  if (weights <= 0) return 0;
+  return sum / weights * std::min(1.0, share / static_cast<double>(options_.full_share));
+}
+
+}  // namespace gannet::vision

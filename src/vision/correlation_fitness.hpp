@@ -1,0 +1,45 @@
+// The fitness "gannet", our default: the zero-mean normalised correlation of image and model over
+// S_in and S_out, for each of Y, U, V and each eye, averaged with weights. At one depth attenuation
+// with backscatter is an affine map of each colour channel, and so are gain and darkness; the
+// correlation does not see one (docs/design/fitness.md). −1 … 1. RT safe.
+#pragma once
+
+#include "src/vision/fitness.hpp"
+
+namespace gannet::vision {
+
+struct CorrelationOptions {
+  // Standard deviations (grey levels) that noise alone could have, added in quadrature to the
+  // image's and the model's: where there is less contrast a channel counts for nothing.
+  float floor_y = 3;
+  float floor_uv = 2;
+  // A channel of the model counts with var / (var + weight²).
+  float weight_y = 12;
+  float weight_uv = 5;
+  // Share of the points that an eye must see for full marks, and to count at all.
+  float full_share = 0.85f;
+  float least_share = 0.5f;
+};
+
+class CorrelationFitness final : public Fitness {
+ public:
+  CorrelationFitness(const StereoRig& rig, const Kernels& kernels,
+                     const CorrelationOptions& options = {});
+
+  PlaneNeeds needs() const override { return {.packed = true}; }
+  int levels(const TargetPoints& target) const override { return target.levels; }
+  void score(const TargetPoints& target, const PreparedFrame& frame, int level,
+             std::span<const Hypothesis> hypotheses, std::span<float> scores,
+             Scratch& scratch) const override;
+
+ private:
+  double eye_score(const PointSet& set, const CameraModel& camera, const EyePlanes& eye, int level,
+                   const PlaneView& view, Scratch& scratch) const;
+
+  CameraModel left_;
+  CameraModel right_;
+  const Kernels& kernels_;
+  CorrelationOptions options_;
+};
+
+}  // namespace gannet::vision

@@ -1,0 +1,117 @@
+#include "src/vision/hypothesis.hpp"
+
+#include <cmath>
+
+namespace gannet::vision {
+namespace {
+
+// Radial factor (distorted radius over undistorted) and the range in which it is one-to-one.
+LensTable make_lens(const Intrinsics& camera) {
+  LensTable lens = {};
+  const double radius = camera.valid_radius();
+  lens.r2_max = static_cast<float>(radius * radius);
+  lens.scale = static_cast<float>(LensTable::kSteps / (radius * radius));
+  Intrinsics radial = camera;
+  if (camera.distortion == Distortion::kBrown) {
+    lens.p1 = static_cast<float>(camera.coefficients[2]);
+    lens.p2 = static_cast<float>(camera.coefficients[3]);
+    radial.coefficients[2] = radial.coefficients[3] = 0;
+  }
+  for (int i = 0; i < LensTable::kSteps + 2; ++i) {
+    const double r = std::sqrt(std::max(i, 1) / static_cast<double>(lens.scale));
+    const double factor = radial.distort({r, 0}).x() / r;
+    lens.factor[i] = i == 0 ? 1.0f : static_cast<float>(factor);
+  }
+  return lens;
+}
+
+}  // namespace
+
+Transform<LeftCamera, Target> Hypothesis::pose() const {
+  Eigen::Matrix3d r;
+  r << rotation[0], rotation[1], rotation[2], rotation[3], rotation[4], rotation[5], rotation[6],
+      rotation[7], rotation[8];
+  return {canonical(Eigen::Quaterniond(r).normalized()),
+          {translation[0], translation[1], translation[2]}};
+}
+
+Hypothesis Hypothesis::from(const Transform<LeftCamera, Target>& pose) {
+  const Eigen::Matrix3d r = pose.rotation.toRotationMatrix();
+  return {{r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2)},
+          {pose.translation.x(), pose.translation.y(), pose.translation.z()}};
+}
+
+CameraModel::CameraModel(const Intrinsics& intrinsics,
+                         const Transform<RightCamera, LeftCamera>* from_left)
+    : intrinsics_(intrinsics) {
+  if (from_left != nullptr) {
+    const Eigen::Matrix3d r = from_left->rotation.toRotationMatrix();
+    for (int row = 0; row < 3; ++row) {
+      for (int col = 0; col < 3; ++col) {
+        rotation_[static_cast<std::size_t>(3 * row + col)] = r(row, col);
+      }
+      translation_[static_cast<std::size_t>(row)] = from_left->translation(row);
+    }
+  }
+  if (!has_lens()) return;
+  lens_[0] = make_lens(intrinsics);
+  double scale = 1;
+  for (LensTable& lens : lens_) {
+    lens = lens_[0];
+    lens.fx = static_cast<float>(intrinsics.fx * scale);
+    lens.fy = static_cast<float>(intrinsics.fy * scale);
+    lens.cx = static_cast<float>((intrinsics.cx + 0.5) * scale - 0.5);
+    lens.cy = static_cast<float>((intrinsics.cy + 0.5) * scale - 0.5);
+    scale /= 2;
+  }
+}
+
+PlaneView CameraModel::finish(const std::array<double, 9>& g, int level, int width, int height,
+                              int guard) const {
+  PlaneView view = {{}, width, height, width, guard};
+  const double scale = 1.0 / (1 << level);
+  const double fx = intrinsics_.fx * scale;
+  const double fy = intrinsics_.fy * scale;
+  const double cx = (intrinsics_.cx + 0.5) * scale - 0.5;
+  const double cy = (intrinsics_.cy + 0.5) * scale - 0.5;
+  for (std::size_t k = 0; k < 3; ++k) {
+    view.h[k] = static_cast<float>(has_lens() ? g[k] : fx * g[k] + cx * g[6 + k]);
+    view.h[3 + k] = static_cast<float>(has_lens() ? g[3 + k] : fy * g[3 + k] + cy * g[6 + k]);
+    view.h[6 + k] = static_cast<float>(g[6 + k]);
+  }
+  return view;
+}
+
+PlaneView CameraModel::view(const Hypothesis& q, int level, int width, int height,
+                            int guard) const {
+  // Columns: the target's x and y axes and its origin, in this camera.
+  std::array<double, 9> g;
+  const auto& r = rotation_;
+  for (std::size_t row = 0; row < 3; ++row) {
+    const std::size_t k = 3 * row;
+    for (std::size_t col = 0; col < 2; ++col) {
+      g[k + col] = (r[k] * q.rotation[col] + r[k + 1] * q.rotation[3 + col]) +
+                   r[k + 2] * q.rotation[6 + col];
+    }
+    g[k + 2] = ((r[k] * q.translation[0] + r[k + 1] * q.translation[1]) +
+                r[k + 2] * q.translation[2]) +
+               translation_[row];
+  }
+  return finish(g, level, width, height, guard);
+}
+
+PlaneView CameraModel::ray_view(const Hypothesis& q, int level, int width, int height,
+                                int guard) const {
+  // A ray m meets the plane n·p = d at m·d/(n·m); in this camera, up to scale: (R + t nᵀ/d) m.
+  const double n[3] = {q.rotation[2], q.rotation[5], q.rotation[8]};
+  const double d = (n[0] * q.translation[0] + n[1] * q.translation[1]) + n[2] * q.translation[2];
+  std::array<double, 9> g;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t col = 0; col < 3; ++col) {
+      g[3 * row + col] = rotation_[3 * row + col] + translation_[row] * n[col] / d;
+    }
+  }
+  return finish(g, level, width, height, guard);
+}
+
+}  // namespace gannet::vision

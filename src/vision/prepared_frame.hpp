@@ -1,0 +1,72 @@
+// PreparedFrame: what the fitness functions look at, made once per image pair: for each eye a
+// pyramid of packed cells (Y, U, V stretched to 7 bits, and a 1), the smoothed bytes at full size,
+// and, where asked for, a plane of (hue, value) cells. Memory is taken at creation.
+// Owner: whoever recognises (the vision thread). prepare() is RT safe.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hal/camera/image_view.hpp"
+
+namespace gannet::vision {
+
+constexpr int kLevels = 4;  // each half the size of the one before
+// Cells behind the last one: the guard, and what a 32-bit read at a 16-bit cell may touch.
+constexpr std::size_t kSpareCells = 16;
+
+struct PlaneNeeds {
+  bool packed = false;
+  bool hue_value = false;
+};
+
+// One level of one eye. Pixel (u, v) of the camera is (u + 0.5) / 2^level − 0.5 here.
+struct PackedPlane {
+  const std::uint32_t* cells = nullptr;
+  int width = 0;
+  int height = 0;
+  int guard = 0;  // index of the cell outside; also the number of cells
+};
+
+struct EyePlanes {
+  std::array<PackedPlane, kLevels> packed;
+  // Grey levels per step of the 7-bit cells, Y U V: the correlation's floors are in grey levels.
+  std::array<float, 3> grey_per_step = {1, 1, 1};
+  const std::uint16_t* hue_value = nullptr;  // full size, guard behind the last cell
+  std::array<const std::uint8_t*, 3> smooth = {};  // Y U V at full size, σ ≈ 1 pixel
+  int width = 0;
+  int height = 0;
+};
+
+class PreparedFrame {
+ public:
+  PreparedFrame(int width, int height, PlaneNeeds needs);
+
+  // Both views must have the size given at creation; false and unchanged otherwise.
+  bool prepare(const hal::ImageView& left, const hal::ImageView& right);
+
+  const EyePlanes& left() const { return eyes_[0]; }
+  const EyePlanes& right() const { return eyes_[1]; }
+
+ private:
+  struct Buffers {
+    std::array<std::array<std::vector<std::uint8_t>, 3>, kLevels> level;  // Y U V, smoothed
+    std::array<std::vector<std::uint32_t>, kLevels> packed;
+    std::vector<std::uint16_t> hue_value;
+  };
+
+  void prepare_eye(const hal::ImageView& image, Buffers& buffers, EyePlanes& planes);
+  void pack(Buffers& buffers, EyePlanes& planes);
+
+  int width_;
+  int height_;
+  PlaneNeeds needs_;
+  std::array<Buffers, 2> buffers_;
+  std::array<EyePlanes, 2> eyes_;
+  std::array<std::vector<std::uint8_t>, 3> raw_;  // one eye's Y U V before smoothing
+  std::vector<std::uint16_t> scratch_;            // one filtered row
+};
+
+}  // namespace gannet::vision

@@ -1,0 +1,43 @@
+// Refinement: from a good hypothesis to the sub-pixel optimum by Gauss–Newton on the smoothed
+// images (bilinear samples), with a gain and an offset for each channel and eye as nuisances and
+// Cauchy weights against what covers the target. Gives the covariance that the residuals imply,
+// (Jᵀ W J)⁻¹ over both images. RT safe (fixed-size Eigen, no heap).
+#pragma once
+
+#include "src/core/pose_estimate.hpp"
+#include "src/core/stereo_rig.hpp"
+#include "src/vision/fitness.hpp"
+
+namespace gannet::vision {
+
+struct RefineOptions {
+  int iterations = 8;
+  double step_stop = 1e-5;    // metres and radians
+  double outside_weight = 0.3;  // of S_out's residuals: the background is only known by its mean
+  // Neighbouring samples of a smoothed image share noise: what independent samples would give is
+  // this much too good, as a variance.
+  double shared_noise = 4.0;
+};
+
+struct Refinement {
+  bool ok = false;  // converged to a place with a full-rank covariance
+  Transform<LeftCamera, Target> left_from_target;
+  Matrix6d covariance = Matrix6d::Zero();  // order as PoseEstimate
+};
+
+// Metric points on the target's plane, both eyes, six degrees of freedom.
+Refinement refine_pose(const StereoRig& rig, const PointSet& points, const PreparedFrame& frame,
+                       const Transform<LeftCamera, Target>& start, const RefineOptions& options);
+
+// Ray points of the left image, right eye, the plane's three degrees of freedom; centre is the ray
+// (x, y, 1) through the patch's centre.
+Refinement refine_plane(const StereoRig& rig, const PointSet& points, const PreparedFrame& frame,
+                        const Transform<LeftCamera, Target>& start, const Eigen::Vector3d& centre,
+                        const RefineOptions& options);
+
+// The pose of a plane (n/d of n·p = d, left camera) on a ray: position where they meet, rotation
+// the smallest one from +z to the normal.
+Transform<LeftCamera, Target> pose_of_plane(const Eigen::Vector3d& normal_over_distance,
+                                            const Eigen::Vector3d& ray);
+
+}  // namespace gannet::vision

@@ -1,0 +1,14 @@
+// One row of any image format as full-range BT.601 Y, U, V at full width. RT safe.
+#pragma once
+
+#include <cstdint>
+
+#include "hal/camera/image_view.hpp"
+
+namespace gannet::vision {
+
+// y, u, v hold at least image.width + 1 bytes. row in [0, height).
+void unpack_row(const hal::ImageView& image, int row, std::uint8_t* y, std::uint8_t* u,
+                std::uint8_t* v);
+
+}  // namespace gannet::vision
