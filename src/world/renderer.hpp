@@ -1,0 +1,79 @@
+// Renderer: what both cameras of a rig see of a scene, into the caller's memory. The picture
+// follows from scene, pose, time, seed and frame number alone, bit for bit, on one thread or many.
+//
+//   1 every surface, far to near: ray, texture over the pixel's footprint, light, water, over
+//   2 marine snow    3 Gaussian blur (defocus, motion)    4 electrons, noise, code, YUV
+//
+// Light is linear until 4. The cameras are those of the rig, lens distortion included. Not a real-
+// time path: it takes memory at creation and a little when the scene grows. One caller at a time;
+// the work itself is shared by `parallel`.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "platform/base/parallel.hpp"
+#include "src/core/stereo_rig.hpp"
+#include "src/world/renderer_output.hpp"
+#include "src/world/renderer_surface.hpp"
+#include "src/world/scene.hpp"
+#include "src/world/sensor.hpp"
+#include "src/world/texture.hpp"
+
+namespace gannet::world {
+
+struct RendererConfig {
+  SensorConfig sensor;
+  double blur_x_px = 0.5;  // standard deviation; about what a good lens and a pixel's filter do
+  double blur_y_px = 0.5;
+};
+void describe(Visitor& v, RendererConfig& c);
+
+enum class Eye { kLeft, kRight };
+
+class Renderer {
+ public:
+  // Scenes name textures by their place in the list. A rig that passed check(); even sides.
+  Renderer(const StereoRig& rig, std::vector<Texture> textures, const RendererConfig& config,
+           std::uint64_t seed);
+
+  const StereoRig& rig() const { return rig_; }
+  const std::vector<Texture>& textures() const { return textures_; }
+
+  // Both pictures of one moment. Targets have the cameras' sizes.
+  void render(const Scene& scene, const Transform<World, LeftCamera>& world_from_left,
+              double time_s, std::uint64_t frame_number, Parallel& parallel,
+              const ImageTarget& left, const ImageTarget& right);
+
+  // Light that reached the sensor in the last picture, before blur in y and before step 4: R, G, B
+  // and the share covered by surfaces. Row-major, the camera's width a row.
+  const Float4* light(Eye eye) const { return eyes_[static_cast<std::size_t>(eye)].light.data(); }
+
+ private:
+  struct View {
+    Intrinsics camera;
+    RayTable rays;
+    std::vector<Float4> light;
+    std::vector<Surface> surfaces;
+    Transform<World, LeftCamera> world_from_camera;  // of whichever eye
+    ImageTarget target;
+  };
+  void place(const Scene& scene, double time_s, View& view);
+
+  void draw_rows(View& view, int first, int end) const;
+  void develop_rows(const View& view, const Sensor& sensor, std::uint64_t key, int first, int end,
+                    Float4* scratch) const;
+
+  StereoRig rig_;
+  std::vector<Texture> textures_;
+  RendererConfig config_;
+  std::uint64_t seed_;
+  Texture caustics_;
+  std::vector<float> blur_x_, blur_y_;  // one-sided weights, the middle first
+  WaterTable water_;
+  std::vector<View> eyes_;
+  std::vector<std::vector<Float4>> scratch_;  // one a worker
+};
+
+}  // namespace gannet::world

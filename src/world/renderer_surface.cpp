@@ -1,0 +1,225 @@
+#include "src/world/renderer_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/search/exact_math.hpp"
+
+namespace gannet::world {
+namespace {
+
+constexpr int kRun = 16;             // pixels between two nodes
+constexpr float kMostProbes = 8;     // along the footprint's long side
+constexpr float kNearest_m = 0.02f;  // nothing nearer is drawn
+
+float log2_of(float x) {
+  return static_cast<float>(search::exact_log(std::clamp(static_cast<double>(x), 1e-6, 1e6)) *
+                            1.4426950408889634);
+}
+
+float mixed(float a, float b, float t) { return a + (b - a) * t; }
+
+}  // namespace
+
+RayTable::RayTable(const Intrinsics& camera)
+    : columns_(static_cast<std::size_t>(camera.width) + 1) {
+  const std::size_t size = columns_ * (static_cast<std::size_t>(camera.height) + 1);
+  x_.reserve(size);
+  y_.reserve(size);
+  for (int row = 0; row <= camera.height; ++row) {
+    for (int column = 0; column <= camera.width; ++column) {
+      const Eigen::Vector3d ray = camera.ray({column, row});
+      x_.push_back(static_cast<float>(ray.x()));
+      y_.push_back(static_cast<float>(ray.y()));
+    }
+  }
+}
+
+// A ray s·d meets the plane where n·(s·d − t) = 0, so s = n·t / n·d, and there u, v are ratios of
+// linear forms of d: exact perspective, three dot products and a division a pixel.
+Surface::Surface(const SceneObject& object, const Texture& texture,
+                 const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation,
+                 const Intrinsics& camera, const Float4& shade)
+    : texture_(&texture),
+      tiled_(object.tile_m > 0),
+      shade_(shade),
+      distance_m_(translation.norm()),
+      columns_(camera.width) {
+  const Eigen::Matrix3d r = rotation.toRotationMatrix();
+  const Eigen::Vector3d n = r.col(2);
+  const double c = n.dot(translation);
+  const double w = tiled_ ? object.tile_m : object.size_m.x();
+  const double h = tiled_ ? object.tile_m : object.size_m.y();
+  const Eigen::Vector3d u = c / w * r.col(0) + (0.5 - r.col(0).dot(translation) / w) * n;
+  const Eigen::Vector3d v = c / h * r.col(1) + (0.5 - r.col(1).dot(translation) / h) * n;
+  const Eigen::Vector3f uf = u.cast<float>(), vf = v.cast<float>(), nf = n.cast<float>();
+  ux_ = uf.x(), uy_ = uf.y(), uz_ = uf.z();
+  vx_ = vf.x(), vy_ = vf.y(), vz_ = vf.z();
+  nx_ = nf.x(), ny_ = nf.y(), nz_ = nf.z();
+  c_ = static_cast<float>(c);
+  bound(object, rotation, translation, camera);
+}
+
+// The rectangle of pixels that can be touched: all of them unless the whole outline is in front.
+void Surface::bound(const SceneObject& object, const Eigen::Quaterniond& rotation,
+                    const Eigen::Vector3d& translation, const Intrinsics& camera) {
+  constexpr int kSteps = 8;
+  Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
+  bool whole = tiled_;
+  for (int i = 0; i < 4 * kSteps && !whole; ++i) {
+    const double along = static_cast<double>(i % kSteps) / kSteps - 0.5;
+    const double side = i / kSteps % 2 ? 0.5 : -0.5;
+    const Eigen::Vector2d p =
+        i < 2 * kSteps ? Eigen::Vector2d(along, side) : Eigen::Vector2d(side, -along);
+    const Eigen::Vector3d at(p.x() * object.size_m.x(), p.y() * object.size_m.y(), 0);
+    const Eigen::Vector3d point = rotation * at + translation;
+    const auto pixel = camera.project(point);
+    if (!pixel || point.z() < 2 * double{kNearest_m})
+      whole = true;
+    else
+      low = low.cwiseMin(*pixel), high = high.cwiseMax(*pixel);
+  }
+  if (whole) low.setZero(), high = Eigen::Vector2d(camera.width, camera.height);
+  const double margin = 2 + 0.01 * (high - low).maxCoeff();  // edges bow where a lens distorts
+  const auto inside = [&](double x, int size) {
+    return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(size)));
+  };
+  first_column_ = inside(low.x() - margin, camera.width);
+  end_column_ = inside(high.x() + margin + 1, camera.width);
+  first_row_ = inside(low.y() - margin, camera.height);
+  end_row_ = inside(high.y() + margin + 1, camera.height);
+}
+
+void Surface::set_caustics(const Caustics& caustics, const SceneObject& object) {
+  caustics_ = caustics;
+  const Eigen::Matrix3d r = object.pose.rotation.toRotationMatrix();
+  const double w = tiled_ ? object.tile_m : object.size_m.x();
+  const double h = tiled_ ? object.tile_m : object.size_m.y();
+  for (int axis = 0; axis < 2; ++axis) {  // the net lies on the world's x, y
+    const double per_u = r(axis, 0) * w, per_v = r(axis, 1) * h;
+    const double at_0 = object.pose.translation[axis] - 0.5 * (per_u + per_v);
+    world_[axis][0] = static_cast<float>(per_u) * caustics.per_metre;
+    world_[axis][1] = static_cast<float>(per_v) * caustics.per_metre;
+    world_[axis][2] = static_cast<float>(at_0) * caustics.per_metre;
+  }
+}
+
+Surface::Footprint Surface::footprint(const RayTable& rays, int column, int row) const {
+  const float* x = rays.x(row) + column;
+  const float* y = rays.y(row) + column;
+  const Hit here = hit(x[0], y[0]);
+  const Hit right = hit(x[1], y[1]);
+  const Hit below = hit(rays.x(row + 1)[column], rays.y(row + 1)[column]);
+  Footprint f;
+  f.level = static_cast<float>(texture_->levels());
+  if (here.depth < kNearest_m || right.depth < kNearest_m || below.depth < kNearest_m) return f;
+  const float ux = right.u - here.u, uy = below.u - here.u;
+  const float vx = right.v - here.v, vy = below.v - here.v;
+  f.width_u = std::sqrt(ux * ux + uy * uy) + 1e-12f;
+  f.width_v = std::sqrt(vx * vx + vy * vy) + 1e-12f;
+  // The pixel's ellipse in texels: J Jᵀ = [a b; b d], its eigenvalues are the squared half axes.
+  const float w = static_cast<float>(texture_->width()), h = static_cast<float>(texture_->height());
+  const float a = w * w * f.width_u * f.width_u, d = h * h * f.width_v * f.width_v;
+  const float b = w * h * (ux * vx + uy * vy);
+  const float middle = 0.5f * (a + d);
+  const float spread = std::sqrt(0.25f * (a - d) * (a - d) + b * b);
+  const float longest = std::sqrt(middle + spread);
+  const float shortest =
+      std::max(std::sqrt(std::max(middle - spread, 0.0f)), longest / kMostProbes);
+  f.level = log2_of(shortest);
+  f.probes = std::clamp(longest / std::max(shortest, 1.0f), 1.0f, kMostProbes);
+  // Eigenvector of the long axis, the better conditioned of the two ways to write it.
+  const float ex = a >= d ? middle + spread - d : b;
+  const float ey = a >= d ? b : middle + spread - a;
+  const float norm = std::sqrt(ex * ex + ey * ey);
+  if (norm > 0) f.u = ex / norm * longest / w, f.v = ey / norm * longest / h;
+  return f;
+}
+
+Float4 Surface::filtered(float u, float v, const Footprint& f) const {
+  const auto look = [&](float at_u, float at_v) {
+    if (tiled_) {
+      at_u -= static_cast<float>(floor_int(at_u));
+      at_v -= static_cast<float>(floor_int(at_v));
+    } else {
+      at_u = std::clamp(at_u, 0.0f, 1.0f);
+      at_v = std::clamp(at_v, 0.0f, 1.0f);
+    }
+    return texture_->sample(at_u, at_v, f.level);
+  };
+  if (f.probes < 1.25f) return look(u, v);
+  const int probes = static_cast<int>(f.probes + 0.75f);
+  Float4 sum = splat(0);
+  for (int i = 0; i < probes; ++i) {
+    const float at = (static_cast<float>(i) + 0.5f) / static_cast<float>(probes) - 0.5f;
+    sum += look(u + at * f.u, v + at * f.v);
+  }
+  return sum * (1.0f / static_cast<float>(probes));
+}
+
+// The share of the pixel inside the rectangle: distance to each edge in pixels, ramp of one pixel.
+float Surface::border(float u, float v, const Footprint& f) const {
+  const float across = std::min(u, 1 - u) / f.width_u + 0.5f;
+  const float down = std::min(v, 1 - v) / f.width_v + 0.5f;
+  return std::clamp(across, 0.0f, 1.0f) * std::clamp(down, 0.0f, 1.0f);
+}
+
+// Two layers of the pattern that move apart; where both are bright the net is.
+float Surface::gathered(float u, float v) const {
+  const float x = world_[0][0] * u + world_[0][1] * v + world_[0][2];
+  const float y = world_[1][0] * u + world_[1][1] * v + world_[1][2];
+  float least = 1;
+  for (const auto& shift : caustics_.shift) {
+    const float a = x + shift[0], b = y + shift[1];
+    least = std::min(least, caustics_.pattern->sample(a - static_cast<float>(floor_int(a)),
+                                                      b - static_cast<float>(floor_int(b)), 0)[0]);
+  }
+  return 1 + caustics_.strength * (4 * least - 1);
+}
+
+void Surface::draw_run(const float* x, const float* y, int count, const Footprint& a,
+                       const Footprint& b, const WaterTable& water, Float4* out) const {
+  for (int i = 0; i < count; ++i) {
+    const Hit at = hit(x[i], y[i]);
+    if (!(at.depth > kNearest_m)) continue;
+    const float t = static_cast<float>(i) * (1.0f / kRun);
+    const Footprint f = {mixed(a.level, b.level, t),
+                         mixed(a.u, b.u, t),
+                         mixed(a.v, b.v, t),
+                         mixed(a.width_u, b.width_u, t),
+                         mixed(a.width_v, b.width_v, t),
+                         mixed(a.probes, b.probes, t)};
+    const float share = tiled_ ? 1.0f : border(at.u, at.v, f);
+    if (share <= 0) continue;
+    Float4 light = filtered(at.u, at.v, f) * shade_ * share;
+    if (caustics_.pattern) {
+      const float g = gathered(at.u, at.v);
+      light *= Float4{g, g, g, 1};
+    }
+    const float range_m = at.depth * std::sqrt((x[i] * x[i] + y[i] * y[i]) + 1);
+    out[i] = water.seen(light, range_m) + out[i] * splat(1 - light[3]);
+  }
+}
+
+void Surface::draw_row(const RayTable& rays, int row, const WaterTable& water, Float4* out) const {
+  if (row < first_row_ || row >= end_row_ || first_column_ >= end_column_) return;
+  const int start = first_column_ / kRun * kRun;  // nodes at the same columns in every row
+  Footprint left = footprint(rays, start, row);
+  for (int column = start; column < end_column_; column += kRun) {
+    Footprint right = footprint(rays, std::min(column + kRun, columns_ - 1), row);
+    if (left.u * right.u + left.v * right.v < 0) right.u = -right.u, right.v = -right.v;
+    draw_run(rays.x(row) + column, rays.y(row) + column, std::min(kRun, columns_ - column), left,
+             right, water, out + column);
+    left = right;
+  }
+}
+
+float Surface::opaque_depth(float x, float y) const {
+  const Hit at = hit(x, y);
+  if (!(at.depth > kNearest_m)) return 0;
+  if (tiled_) return at.depth;
+  if (at.u < 0 || at.u > 1 || at.v < 0 || at.v > 1) return 0;
+  return texture_->sample(at.u, at.v, 0)[3] > 0.5f ? at.depth : 0;
+}
+
+}  // namespace gannet::world

@@ -1,0 +1,145 @@
+#include "src/world/texture_made.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "platform/base/random.hpp"
+#include "src/world/texture.hpp"
+
+namespace gannet::world {
+namespace {
+
+using image_file::Raster8;
+
+std::uint8_t byte(double x) { return static_cast<std::uint8_t>(std::clamp(x, 0.0, 255.0) + 0.5); }
+
+// Smooth noise −1 … 1 that repeats after `side`, with one value every `cell` texels.
+std::vector<float> octave(int side, int cell, Random& random) {
+  const int n = std::max(1, side / cell);
+  std::vector<float> grid(static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
+  for (float& g : grid) g = 2 * random.uniform_f() - 1;
+  const auto value = [&](int x, int y) {
+    return grid[static_cast<std::size_t>(y % n) * static_cast<std::size_t>(n) +
+                static_cast<std::size_t>(x % n)];
+  };
+  std::vector<float> out;
+  out.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  for (int y = 0; y < side; ++y) {
+    const float ty = static_cast<float>(y % cell) / static_cast<float>(cell);
+    const float sy = ty * ty * (3 - 2 * ty);
+    for (int x = 0; x < side; ++x) {
+      const float tx = static_cast<float>(x % cell) / static_cast<float>(cell);
+      const float sx = tx * tx * (3 - 2 * tx);
+      const int gx = x / cell, gy = y / cell;
+      const float top = value(gx, gy) + (value(gx + 1, gy) - value(gx, gy)) * sx;
+      const float low = value(gx, gy + 1) + (value(gx + 1, gy + 1) - value(gx, gy + 1)) * sx;
+      out.push_back(top + (low - top) * sy);
+    }
+  }
+  return out;
+}
+
+struct Stone {
+  float x, y, radius, stretch, tilt;
+  std::array<float, 3> colour;
+};
+
+std::vector<Stone> stones(int side, Random& random) {
+  constexpr std::array<std::array<float, 3>, 5> kColours = {
+      {{168, 146, 112}, {130, 118, 100}, {190, 178, 150}, {110, 84, 66}, {96, 104, 96}}};
+  std::vector<Stone> all;
+  for (int i = 0; i < 700; ++i) {
+    const float t = random.uniform_f();
+    Stone s{random.uniform_f() * static_cast<float>(side),
+            random.uniform_f() * static_cast<float>(side),
+            static_cast<float>(side) * (0.012f + 0.045f * t * t * t),
+            0.6f + 0.4f * random.uniform_f(),
+            3.1416f * random.uniform_f(),
+            kColours[static_cast<std::size_t>(random.below(5))]};
+    const float light = 0.7f + 0.6f * random.uniform_f();
+    for (float& c : s.colour) c *= light;
+    all.push_back(s);
+  }
+  return all;
+}
+
+void draw_stone(const Stone& s, Raster8& picture) {
+  const int side = picture.width;
+  const int reach = static_cast<int>(s.radius) + 2;
+  const float c = std::cos(s.tilt), n = std::sin(s.tilt);
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const float fx = static_cast<float>(dx), fy = static_cast<float>(dy);
+      const float a = (fx * c + fy * n) / s.radius;
+      const float b = (fy * c - fx * n) / (s.radius * s.stretch);
+      const float r = std::sqrt(a * a + b * b);
+      const float share = std::clamp((1 - r) * s.radius + 0.5f, 0.0f, 1.0f);
+      const float round =
+          0.55f + 0.45f * std::sqrt(std::max(0.0f, 1 - r * r)) - 0.15f * fy / s.radius;
+      const int x = ((static_cast<int>(s.x) + dx) % side + side) % side;
+      const int y = ((static_cast<int>(s.y) + dy) % side + side) % side;
+      std::uint8_t* p = picture.at(x, y);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double over = static_cast<double>(s.colour[i] * round * share) +
+                            p[i] * (1.0 - static_cast<double>(share));
+        p[i] = byte(over);
+      }
+    }
+  }
+}
+
+void add_grain(Raster8& picture, std::uint64_t seed, double strength, bool coloured) {
+  Random random(seed);
+  for (int cell = 1; cell <= picture.width / 4; cell *= 2) {
+    const auto grey = octave(picture.width, cell, random);
+    const auto hue = octave(picture.width, cell, random);
+    for (std::size_t i = 0; i < grey.size(); ++i) {
+      std::uint8_t* p = picture.samples.data() + 3 * i;
+      const double g = strength * static_cast<double>(grey[i]);
+      const double h = coloured ? strength * static_cast<double>(hue[i]) : 0;
+      p[0] = byte(p[0] + g + h), p[1] = byte(p[1] + g), p[2] = byte(p[2] + g - h);
+    }
+  }
+}
+
+}  // namespace
+
+Raster8 pebbles_picture(int side, std::uint64_t seed) {
+  Raster8 picture(side, side, 3);
+  for (std::size_t i = 0; i < picture.samples.size(); i += 3) {
+    picture.samples[i] = 92, picture.samples[i + 1] = 80, picture.samples[i + 2] = 62;
+  }
+  Random random(seed);
+  auto all = stones(side, random);
+  std::sort(all.begin(), all.end(),
+            [](const Stone& a, const Stone& b) { return a.radius < b.radius; });
+  for (const Stone& s : all) draw_stone(s, picture);
+  add_grain(picture, seed + 1, 7, false);
+  return picture;
+}
+
+Raster8 noise_picture(int side, std::uint64_t seed) {
+  Raster8 picture(side, side, 3);
+  std::fill(picture.samples.begin(), picture.samples.end(), std::uint8_t{128});
+  add_grain(picture, seed, 24, true);
+  return picture;
+}
+
+// Sunlight under waves is a net of bright lines: where a smooth random height crosses zero.
+Raster8 caustics_picture() {
+  constexpr int kSide = 256;
+  Random random(29);
+  const auto broad = octave(kSide, 32, random);
+  const auto fine = octave(kSide, 16, random);
+  Raster8 picture(kSide, kSide, 1);
+  for (std::size_t i = 0; i < broad.size(); ++i) {
+    const double height = static_cast<double>(broad[i]) + 0.4 * static_cast<double>(fine[i]);
+    const double line = 1 - std::min(1.0, 2.2 * std::abs(height));
+    picture.samples[i] = byte(255 * srgb_from_linear(0.13 + 0.87 * line * line));
+  }
+  return picture;
+}
+
+}  // namespace gannet::world

@@ -1,0 +1,20 @@
+// Pictures that are drawn by rule, for tests and for machines without the photographs: they are
+// called drawn wherever they appear. All repeat seamlessly. Same bits for the same seed.
+#pragma once
+
+#include <cstdint>
+
+#include "src/image_file/raster.hpp"
+
+namespace gannet::world {
+
+// Rounded stones of many colours and sizes with grain down to a texel; RGB.
+image_file::Raster8 pebbles_picture(int side, std::uint64_t seed);
+
+// Noise with equal power in every octave, coloured; RGB. Detail at any distance.
+image_file::Raster8 noise_picture(int side, std::uint64_t seed);
+
+// Light gathered by waves; grey, linear mean about 1/4 where two copies overlap.
+image_file::Raster8 caustics_picture();
+
+}  // namespace gannet::world
