@@ -80,7 +80,7 @@ bool Loader::read(const TomlValue& value, std::string_view name, std::string& to
   const auto& choices = about.choices;
   if (!choices.empty() && std::find(choices.begin(), choices.end(), value.text) == choices.end()) {
     refuse(value, name,
-           quoted(value.text) + " is none of " + joined(choices, ", ") +
+           toml_string(value.text) + " is none of " + joined(choices, ", ") +
                did_you_mean(value.text, choices));
     return false;
   }

@@ -24,7 +24,7 @@ std::string number_text(double number) {
   return {text, std::to_chars(text, text + sizeof text, number, format).ptr};
 }
 
-std::string quoted(std::string_view text) {
+std::string toml_string(std::string_view text) {
   static const char* kHex = "0123456789abcdef";
   std::string out = "\"";
   for (const char c : text) {
@@ -51,7 +51,7 @@ std::string joined(const std::vector<std::string>& words, std::string_view betwe
 
 std::string value_text(bool value) { return value ? "true" : "false"; }
 std::string value_text(int value) { return std::to_string(value); }
-std::string value_text(const std::string& value) { return quoted(value); }
+std::string value_text(const std::string& value) { return toml_string(value); }
 std::string value_text(const std::vector<double>& values) { return array_text(values); }
 std::string value_text(const std::vector<int>& values) { return array_text(values); }
 std::string value_text(const std::vector<std::string>& values) { return array_text(values); }

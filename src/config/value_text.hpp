@@ -13,7 +13,7 @@ namespace gannet::config {
 // do without.
 std::string number_text(double number);
 
-std::string quoted(std::string_view text);  // a TOML basic string
+std::string toml_string(std::string_view text);  // a TOML basic string
 std::string joined(const std::vector<std::string>& words, std::string_view between);
 
 std::string value_text(bool value);

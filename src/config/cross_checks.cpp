@@ -1,0 +1,127 @@
+#include "src/config/cross_checks.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "src/config/rig_file.hpp"
+#include "src/config/value_text.hpp"
+
+namespace gannet::config {
+namespace {
+
+class Checker {
+ public:
+  Checker(LoadedConfig& loaded, const std::string& file, Problems& problems)
+      : loaded_(loaded), config_(loaded.config), file_(file), problems_(problems) {}
+
+  void run() {
+    check_rig();
+    check_cores();
+    check_clock_and_frames();
+    check_track();
+    check_vehicle();
+    check_drive();
+  }
+
+ private:
+  Origin where(std::string key) const {
+    while (!key.empty()) {
+      const auto found = loaded_.origins.find(key);
+      if (found != loaded_.origins.end()) return found->second;
+      const std::size_t dot = key.rfind('.');
+      key.resize(dot == std::string::npos ? 0 : dot);
+    }
+    return {file_.empty() ? "gannetd" : file_, 0};
+  }
+
+  void refuse(const std::string& key, const std::string& text) {
+    problems_.add(where(key), key + ": " + text);
+  }
+
+  void check_rig() {
+    if (config_.rig.empty())
+      return refuse("rig", "is not set; it is the path of the cameras' calibration");
+    Result<StereoRig> rig = load_rig(config_.rig);
+    if (!rig) return problems_.add(where("rig"), "rig: " + rig.error().text);
+    loaded_.rig = std::move(*rig);
+    if (config_.vehicle.kind != "none" && !loaded_.rig.body_from_hand)
+      refuse("rig", config_.rig +
+                        " has no [body_from_hand], which a vehicle needs: where the "
+                        "cameras sit on it");
+  }
+
+  void check_core(const std::string& key, int core) {
+    if (config_.board.cores > 0 && core >= config_.board.cores)
+      refuse(key, "core " + std::to_string(core) + " does not exist; board.cores is " +
+                      std::to_string(config_.board.cores));
+  }
+
+  void check_cores() {
+    check_core("realtime.capture.core", config_.realtime.capture.core);
+    check_core("realtime.vision.core", config_.realtime.vision.core);
+    check_core("realtime.servo.core", config_.realtime.servo.core);
+    for (const int core : config_.realtime.worker_cores) check_core("realtime.worker_cores", core);
+  }
+
+  void check_clock_and_frames() {
+    if (config_.clock.kind == "stepped" && config_.clock.step_socket.empty())
+      refuse("clock.step_socket", "is needed by clock.kind \"stepped\"");
+    if (config_.frames.kind == "directory" && config_.frames.directory.empty())
+      refuse("frames.directory", "is needed by frames.kind \"directory\"");
+  }
+
+  void check_track() {
+    if (config_.track.z_min_m >= config_.track.z_max_m)
+      refuse("track.z_max_m",
+             "is not beyond track.z_min_m, " + number_text(config_.track.z_min_m) + " m");
+    const auto& de = config_.track.search.differential_evolution;
+    if (de.scale_min > de.scale_max)
+      refuse("track.search.differential_evolution.scale_max", "is below scale_min");
+  }
+
+  int thrusters() const {
+    const vehicle::RovConfig& rov = config_.vehicle.rov;
+    if (rov.frame == "custom") return static_cast<int>(rov.thrusters.size());
+    return rov.frame == "vectored" ? 6 : 8;
+  }
+
+  void check_vehicle() {
+    if (config_.vehicle.kind != "rov") return;
+    const vehicle::RovConfig& rov = config_.vehicle.rov;
+    if (rov.frame == "custom" && rov.thrusters.empty())
+      return refuse("vehicle.rov.frame",
+                    "\"custom\" needs a table [[vehicle.rov.thruster]] for each one");
+    if (rov.frame != "custom" && !rov.thrusters.empty())
+      refuse("vehicle.rov.thruster", "is for frame \"custom\" only");
+    const int motors = static_cast<int>(config_.drive.motors.size());
+    if (motors != thrusters())
+      refuse("drive.motor", std::to_string(motors) + " motors for " + std::to_string(thrusters()) +
+                                " thrusters; each needs one table [[drive.motor]], in the order "
+                                "of the thrusters");
+  }
+
+  void check_drive() {
+    std::set<int> indices;
+    for (std::size_t i = 0; i < config_.drive.motors.size(); ++i) {
+      const hal::MotorConfig& motor = config_.drive.motors[i];
+      const std::string key = "drive.motor[" + std::to_string(i) + "]";
+      if (!indices.insert(motor.index).second)
+        refuse(key + ".index", std::to_string(motor.index) + " is used twice");
+      if (motor.node_id == config_.drive.own_node_id)
+        refuse(key + ".node_id", "is drive.own_node_id, the daemon's own");
+    }
+  }
+
+  LoadedConfig& loaded_;
+  const DaemonConfig& config_;
+  const std::string& file_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+void check_together(LoadedConfig& loaded, const std::string& file, Problems& problems) {
+  Checker(loaded, file, problems).run();
+}
+
+}  // namespace gannet::config

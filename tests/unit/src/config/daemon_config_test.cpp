@@ -1,0 +1,202 @@
+#include "src/config/daemon_config.hpp"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "src/config/printer.hpp"
+
+namespace gannet::config {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const kRig =
+    "[left]\nwidth = 640\nheight = 480\nfx = 640\nfy = 640\ncx = 319.5\ncy = 239.5\n"
+    "[right]\nwidth = 640\nheight = 480\nfx = 640\nfy = 640\ncx = 319.5\ncy = 239.5\n"
+    "[right_from_left]\nrotation = [1, 0, 0, 0, 1, 0, 0, 0, 1]\ntranslation_m = [-0.12, 0, 0]\n";
+const char* const kBody =
+    "[body_from_hand]\nrotation = [0, 0, 1, -1, 0, 0, 0, -1, 0]\ntranslation_m = [0.2, 0, 0]\n";
+
+class DaemonConfigTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "gannet_config_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    write("rig.toml", std::string(kRig) + kBody);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+  }
+  Result<LoadedConfig> load(std::vector<std::string> sets = {}) {
+    return load_daemon_config(
+        {(folder_ / "gannet.toml").string(), std::move(sets), {(folder_ / "boards").string()}});
+  }
+  // The problems, with the folder's name taken out.
+  std::string problems(std::vector<std::string> sets = {}) {
+    const auto loaded = load(std::move(sets));
+    if (loaded) return "none";
+    std::string text = loaded.error().text;
+    const std::string prefix = folder_.string() + "/";
+    for (std::size_t at; (at = text.find(prefix)) != std::string::npos;)
+      text.erase(at, prefix.size());
+    return text;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(DaemonConfigTest, later_sources_overrule_earlier_ones) {
+  write("boards/small.toml",
+        "[board]\ncores = 2\n[realtime]\nservo_rate_hz = 50\n"
+        "[realtime.capture]\ncore = 1\n[track]\nseed = 2\n");
+  write("gannet.toml",
+        "rig = \"rig.toml\"\nboard.name = \"small\"\n"
+        "[realtime]\nservo_rate_hz = 100\n[track]\nseed = 3\ntilt_deg = 10\n");
+  write("gannet.toml.d/20-b.toml", "track.seed = 5\n");
+  write("gannet.toml.d/10-a.toml", "track.seed = 4\ntrack.roll_deg = 20\n");
+  write("gannet.toml.d/ignored.txt", "nonsense\n");
+  const auto sut = load({"track.roll_deg=30", "track.fitness=p001"});
+  ASSERT_TRUE(sut) << sut.error().text;
+  EXPECT_EQ(sut->config.realtime.capture.core, 1);
+  EXPECT_EQ(sut->config.realtime.servo_rate_hz, 100);
+  EXPECT_EQ(sut->config.track.seed, 5);
+  EXPECT_EQ(sut->config.track.tilt_deg, 10);
+  EXPECT_EQ(sut->config.track.roll_deg, 30);
+  EXPECT_EQ(sut->config.track.fitness, "p001");
+  EXPECT_EQ(sut->config.rig, (folder_ / "rig.toml").string());
+  ASSERT_EQ(sut->files.size(), 4u);
+  const std::string shown = sut->show();
+  for (const std::string& line :
+       {"track.seed = 5  # " + folder_.string() + "/gannet.toml.d/20-b.toml:1",
+        std::string("track.roll_deg = 30.0  # --set track.roll_deg=30"),
+        "realtime.capture.core = 1  # " + folder_.string() + "/boards/small.toml:6",
+        std::string("clock.kind = \"live\"  # built-in")}) {
+    EXPECT_NE(shown.find(line + "\n"), std::string::npos) << line << "\n" << shown;
+  }
+}
+
+TEST_F(DaemonConfigTest, all_problems_of_all_sources_are_told_at_once) {
+  write("gannet.toml", "rig = \"rig.toml\"\n[track]\nsede = 3\n[safety]\nfull_age_s = 99\n");
+  write("gannet.toml.d/a.toml", "[servo]\nlaw = \"pose_regulatio\"\n");
+  EXPECT_EQ(problems({"track.seed=x y", "=3", "nonsense", "track.fitness=p003"}),
+            "--set =3: is not of the form room.key=value\n"
+            "--set nonsense: is not of the form room.key=value\n"
+            "gannet.toml:3: track.sede: unknown key (did you mean seed?)\n"
+            "gannet.toml:5: safety.full_age_s: 99 s is outside [0.02, 5]\n"
+            "gannet.toml.d/a.toml:2: servo.law: \"pose_regulatio\" is none of pose_regulation "
+            "(did you mean pose_regulation?)\n"
+            "--set track.seed=x y: track.seed: expects a whole number, found a string\n"
+            "--set track.fitness=p003: track.fitness: \"p003\" is none of p001, p002, p000, gannet "
+            "(did you mean p001?)");
+}
+
+TEST_F(DaemonConfigTest, files_that_cannot_be_read_are_told) {
+  EXPECT_EQ(problems(), "gannet.toml: cannot be opened: No such file or directory");
+  write("gannet.toml", "rig = \"rig.toml\"\nboard.name = \"smal\"\n");
+  EXPECT_EQ(problems(), "gannet.toml:2: board.name: there is no board file \"smal\" in boards");
+  write("gannet.toml", "rig = \n");
+  EXPECT_EQ(problems().substr(0, 14), "gannet.toml:1:");
+}
+
+TEST_F(DaemonConfigTest, the_rig_is_loaded_and_its_faults_are_told) {
+  write("gannet.toml", "track.seed = 1\n");
+  EXPECT_EQ(problems(), "gannet.toml: rig: is not set; it is the path of the cameras' calibration");
+  write("gannet.toml", "\nrig = \"other.toml\"\n");
+  EXPECT_EQ(problems(),
+            "gannet.toml:2: rig: other.toml: cannot be opened: No such file or directory");
+  write("other.toml", "[left]\nwidth = 1\n");
+  EXPECT_EQ(problems(),
+            "gannet.toml:2: rig: other.toml:2: left.width: 1 px is outside [16, 16384]");
+  write("other.toml", kRig);
+  const auto sut = load();
+  ASSERT_TRUE(sut) << sut.error().text;
+  EXPECT_NEAR(sut->rig.baseline_m(), 0.12, 1e-12);
+}
+
+std::string motors(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i)
+    text += "[[drive.motor]]\nindex = " + std::to_string(i) +
+            "\nnode_id = " + std::to_string(20 + i) + "\n";
+  return text;
+}
+
+TEST_F(DaemonConfigTest, a_vehicle_needs_a_place_of_the_cameras_and_a_motor_per_thruster) {
+  write("gannet.toml", "rig = \"rig.toml\"\n[vehicle]\nkind = \"rov\"\n" + motors(6));
+  EXPECT_EQ(problems(), "none");
+  EXPECT_EQ(problems({"vehicle.rov.frame=vectored_6dof"}),
+            "gannet.toml:4: drive.motor: 6 motors for 8 thrusters; each needs one table "
+            "[[drive.motor]], in the order of the thrusters");
+  EXPECT_EQ(problems({"vehicle.rov.frame=custom"}),
+            "--set vehicle.rov.frame=custom: vehicle.rov.frame: \"custom\" needs a table "
+            "[[vehicle.rov.thruster]] for each one");
+  write("rig.toml", kRig);
+  EXPECT_EQ(problems(),
+            "gannet.toml:1: rig: rig.toml has no [body_from_hand], which a vehicle "
+            "needs: where the cameras sit on it");
+}
+
+TEST_F(DaemonConfigTest, groups_that_do_not_fit_each_other_are_told) {
+  write("gannet.toml",
+        "rig = \"rig.toml\"\n[board]\ncores = 2\n[realtime.servo]\ncore = 2\n"
+        "[clock]\nkind = \"stepped\"\n[frames]\nkind = \"directory\"\n"
+        "[track]\nz_min_m = 2\n" +
+            motors(2) + "[[drive.motor]]\nindex = 0\nnode_id = 10\n");
+  EXPECT_EQ(problems(),
+            "gannet.toml:5: realtime.servo.core: core 2 does not exist; board.cores is 2\n"
+            "gannet.toml:6: clock.step_socket: is needed by clock.kind \"stepped\"\n"
+            "gannet.toml:8: frames.directory: is needed by frames.kind \"directory\"\n"
+            "gannet.toml:10: track.z_max_m: is not beyond track.z_min_m, 2 m\n"
+            "gannet.toml:19: drive.motor[2].index: 0 is used twice\n"
+            "gannet.toml:20: drive.motor[2].node_id: is drive.own_node_id, the daemon's own");
+}
+
+TEST(DaemonConfig, the_default_file_loads_back_to_the_built_in_values) {
+  const std::string text = print_default();
+  const auto tree = parse_toml(text, "default.toml");
+  ASSERT_TRUE(tree) << tree.error().text;
+  DaemonConfig config;
+  Origins origins;
+  Problems none;
+  config.track.seed = 77;  // is overwritten, so the file really says it
+  config::load(*tree, "default.toml", config, origins, none);
+  EXPECT_TRUE(none.empty()) << none.error().text;
+  EXPECT_EQ(commented_file(config), commented_file(DaemonConfig{}));
+  EXPECT_EQ(config.track.seed, 1);
+}
+
+TEST(DaemonConfig, every_key_says_what_it_means) {
+  const std::string text = config_markdown();
+  EXPECT_EQ(text.find("|  |\n"), std::string::npos) << "a key without help";
+}
+
+TEST(DaemonConfig, each_board_file_loads) {
+  int boards = 0;
+  for (const std::string& folder : board_folders()) {
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+      DaemonConfig config;
+      Origins origins;
+      Problems none;
+      const auto tree = read_toml(entry.path().string());
+      ASSERT_TRUE(tree) << tree.error().text;
+      config::load(*tree, entry.path().string(), config, origins, none);
+      EXPECT_TRUE(none.empty()) << none.error().text;
+      EXPECT_GE(config.board.cores, 1) << entry.path();
+      EXPECT_LT(config.realtime.servo.core, config.board.cores) << entry.path();
+      for (const int core : config.realtime.worker_cores) EXPECT_LT(core, config.board.cores);
+      ++boards;
+    }
+  }
+  EXPECT_GE(boards, 3);
+}
+
+}  // namespace
+}  // namespace gannet::config
