@@ -87,18 +87,18 @@ TEST(DroneCanMessages, RawCommandOfSixEscsIsTwoFrames) {
 }
 
 TEST(DroneCanMessages, RawCommandOfEightEscsIsThreeFrames) {
-  expect_raw_command(
-      {8191, -8192, 4096, -4096, 1, -1, 0, 2730}, {.priority = 8, .source = 10, .transfer_id = 6},
-      {"0804060A#6DCDFF7C02000486", "0804060A#00300103FFF00026", "0804060A#2A8A46"});
+  expect_raw_command({8191, -8192, 4096, -4096, 1, -1, 0, 2730},
+                     {.priority = 8, .source = 10, .transfer_id = 6},
+                     {"0804060A#6DCDFF7C02000486", "0804060A#00300103FFF00026", "0804060A#2A8A46"});
 }
 
 TEST(DroneCanMessages, RawCommandOfTwentyEscsIsSixFrames) {
   std::vector<int> commands;
   for (int i = 0; i < 20; ++i) commands.push_back(i * 400 - 4000);
-  expect_raw_command(commands, {.priority = 8, .source = 10, .transfer_id = 9},
-                     {"0804060A#551160C3C3180C89", "0804060A#C435A0D8C38C0E29",
-                      "0804060A#543BE0F1C3E00009", "0804060A#2401200EC0440129",
-                      "0804060A#B4076027C0A80309", "0804060A#040E69"});
+  expect_raw_command(
+      commands, {.priority = 8, .source = 10, .transfer_id = 9},
+      {"0804060A#551160C3C3180C89", "0804060A#C435A0D8C38C0E29", "0804060A#543BE0F1C3E00009",
+       "0804060A#2401200EC0440129", "0804060A#B4076027C0A80309", "0804060A#040E69"});
 }
 
 TEST(DroneCanMessages, EscStatus) {
@@ -232,7 +232,8 @@ TEST(DroneCanMessages, TheLongestNodeInfoFits) {
   while (info.certificate.push_back(0xAA)) {
   }
   info.set_name(std::string(100, 'n'));
-  const Texts frames = written(info, {.kind = TransferKind::kResponse, .source = 1, .destination = 2});
+  const Texts frames =
+      written(info, {.kind = TransferKind::kResponse, .source = 1, .destination = 2});
   const auto back = read<NodeInfo>(frames, TransferKind::kResponse, 2);
   EXPECT_EQ(back.certificate.size(), 255);
   EXPECT_EQ(back.name.size(), 80);
