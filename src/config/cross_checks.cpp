@@ -64,6 +64,8 @@ class Checker {
   }
 
   void check_clock_and_frames() {
+    if (config_.camera.kind == "replay" && config_.camera.replay.directory.empty())
+      refuse("camera.replay.directory", "is needed by camera.kind \"replay\"");
     if (config_.clock.kind == "stepped" && config_.clock.step_socket.empty())
       refuse("clock.step_socket", "is needed by clock.kind \"stepped\"");
     if (config_.frames.kind == "directory" && config_.frames.directory.empty())

@@ -68,6 +68,7 @@ void describe(Visitor& v, DaemonConfig& c) {
   v.group("board", c.board, "Facts of the computer.");
   v.group("realtime", c.realtime, "Threads, their cores and rates.");
   v.group("clock", c.clock, "What time is.");
+  v.group("camera", c.camera, "Where image pairs come from.");
   v.group("can", c.can, "The bus to the motors.");
   v.group("drive", c.drive, "The motors' protocol and places on the bus.");
   v.group("track", c.track, "Recognition and the state of a track.");
@@ -189,6 +190,7 @@ void resolve_paths(LoadedConfig& loaded) {
   DaemonConfig& c = loaded.config;
   resolve(loaded.origins, "rig", c.rig);
   for (std::string& model : c.models) resolve(loaded.origins, "models", model);
+  resolve(loaded.origins, "camera.replay.directory", c.camera.replay.directory);
   resolve(loaded.origins, "frames.directory", c.frames.directory);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hal/camera/camera_config.hpp"
 #include "hal/can/can_config.hpp"
 #include "hal/drive/drive_config.hpp"
 #include "platform/base/describe.hpp"
@@ -61,6 +62,7 @@ struct DaemonConfig {
   BoardConfig board;
   RealtimeConfig realtime;
   ClockConfig clock;
+  hal::CameraConfig camera;
   hal::CanConfig can;
   hal::DriveConfig drive;
   track::TrackConfig track;

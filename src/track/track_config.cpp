@@ -45,7 +45,11 @@ void describe(Visitor& v, TrackConfig& c) {
   v.field("model_points", c.model_points,
           {.min = 20, .max = 20000, .help = "Points inside a model's silhouette."});
   v.field("found_fitness", c.found_fitness,
-          {.min = -10, .max = 10, .help = "Least fitness that counts as found."});
+          {.min = -1, .max = 1, .help = "Least correlation that counts as found (gannet)."});
+  v.field("found_votes", c.found_votes,
+          {.min = 0,
+           .max = 1,
+           .help = "Least share of a perfect score that counts as found (p000, p001, p002)."});
   describe_volume(v, c);
   v.field("coast_s", c.coast_s,
           {.min = 0,
