@@ -6,9 +6,6 @@
 namespace gannet::vehicle {
 namespace {
 
-// Time in which the integral gives way to a saturation.
-constexpr double kAntiWindupS = 0.3;
-
 Vector6d stacked(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   Vector6d out;
   out << a, b;
@@ -95,6 +92,16 @@ void Rov::slew(const Allocation::Thrusts& wanted, double seconds) {
   thrusts_ += part * (wanted - thrusts_);
 }
 
+// Conditional integration: an axis of which the motors leave something undone does not ask for more
+// of it. Back-calculation was refused: where the proportional part alone saturates, which a far
+// target makes it do, it drives the integral far to the other side.
+void Rov::integrate(const Vector6d& error, const Vector6d& undone, double seconds) {
+  for (int i = 0; i < 6; ++i) {
+    const double change = seconds * plant_.mass[i] * gains_.integral[i] * error[i];
+    if (std::abs(undone[i]) < 1e-6 || change * undone[i] < 0) integral_[i] += change;
+  }
+}
+
 // Drag is taken implicitly: stable for every step.
 void Rov::advance_model(const Vector6d& wrench, double seconds) {
   const double part = plant_.lag_s > 0 ? 1 - std::exp(-seconds / plant_.lag_s) : 1;
@@ -141,10 +148,7 @@ Reach Rov::update(const MotionWish& wish, Permit permit, Duration dt,
     setpoints[i].value = command_for(curves_[i], thrusts_[static_cast<int>(i)]);
   }
   const Vector6d reached = allocation_.wrench(thrusts_);
-  if (wish.measured_valid) {
-    integral_ += seconds * plant_.mass.cwiseProduct(gains_.integral).cwiseProduct(error);
-    integral_ += std::min(seconds / kAntiWindupS, 1.0) * (reached - wished);
-  }
+  if (wish.measured_valid) integrate(error, wished - reached, seconds);
   advance_model(reached, seconds);
   reach.wished = wrench_of(wished);
   reach.reached = wrench_of(reached);

@@ -1,7 +1,7 @@
 // Rov: an underwater vehicle with thrusters. A velocity loop (PI with drag feed-forward, gains in
 // 1/s times mass with added mass) wishes a wrench; Allocation makes thrusts of it; the slew limit
-// moves all thrusts together; the curves make commands. The integral learns from the wrench that
-// was reached, not from the one that was wished (back-calculation), so it does not wind up.
+// moves all thrusts together; the curves make commands. The integral grows on an axis only while
+// the motors reach what is wished there, so it does not wind up.
 // Without a measured velocity the model's own one stands in, and the integral rests.
 // The model of its own motion: M·v̇ = τ − D₁·v − D₂·|v|·v per controlled axis, with first-order
 // thruster lag; Coriolis and restoring forces are left to the pose filter, which sees their effect.
@@ -40,6 +40,7 @@ class Rov final : public Vehicle {
   Vector6d drag(const Vector6d& velocity) const;
   Vector6d error_of(const MotionWish& wish, const Vector6d& velocity) const;
   void slew(const Allocation::Thrusts& wanted, double seconds);
+  void integrate(const Vector6d& error, const Vector6d& undone, double seconds);
   void advance_model(const Vector6d& wrench, double seconds);
   void stop(std::span<hal::DriveSetpoint> setpoints, double seconds);
 
