@@ -1,0 +1,62 @@
+#include "src/report/statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace gannet::report {
+namespace {
+
+constexpr std::array<double, 5> kValues = {4, 1, 3, 2, 10};
+
+TEST(Statistics, mean_rms_and_deviation) {
+  EXPECT_DOUBLE_EQ(mean(kValues), 4);
+  EXPECT_DOUBLE_EQ(rms(kValues), std::sqrt(130.0 / 5));
+  EXPECT_DOUBLE_EQ(standard_deviation(kValues), std::sqrt(50.0 / 4));
+}
+
+TEST(Statistics, percentiles_are_linear_between_ranks) {
+  EXPECT_DOUBLE_EQ(percentile(kValues, 0), 1);
+  EXPECT_DOUBLE_EQ(percentile(kValues, 50), 3);
+  EXPECT_DOUBLE_EQ(percentile(kValues, 25), 2);
+  EXPECT_DOUBLE_EQ(percentile(kValues, 90), 4 + 0.6 * 6);
+  EXPECT_DOUBLE_EQ(percentile(kValues, 100), 10);
+}
+
+TEST(Statistics, an_empty_sample_is_not_a_number) {
+  const Summary sut = summarise({});
+  EXPECT_EQ(sut.count, 0);
+  for (const double v : {sut.mean, sut.rms, sut.deviation, sut.min, sut.p50, sut.p99, sut.max}) {
+    EXPECT_TRUE(std::isnan(v));
+  }
+}
+
+TEST(Statistics, one_value_is_its_own_summary) {
+  const std::array<double, 1> one = {7};
+  const Summary sut = summarise(one);
+  EXPECT_EQ(sut.min, 7);
+  EXPECT_EQ(sut.p90, 7);
+  EXPECT_EQ(sut.max, 7);
+  EXPECT_EQ(sut.deviation, 0);
+}
+
+// Worked out by hand from the formula; 8 of 10 is the usual textbook example.
+TEST(Wilson, agrees_with_published_values) {
+  EXPECT_NEAR(wilson95(8, 10).low, 0.4902, 1e-4);
+  EXPECT_NEAR(wilson95(8, 10).high, 0.9433, 1e-4);
+  EXPECT_NEAR(wilson95(95, 100).low, 0.8882, 1e-4);
+  EXPECT_NEAR(wilson95(95, 100).high, 0.9785, 1e-4);
+}
+
+TEST(Wilson, is_never_empty_and_never_beyond_the_ends) {
+  EXPECT_EQ(wilson95(0, 20).low, 0);
+  EXPECT_NEAR(wilson95(0, 20).high, 0.1611, 1e-4);
+  EXPECT_EQ(wilson95(20, 20).high, 1);
+  EXPECT_NEAR(wilson95(20, 20).low, 0.8389, 1e-4);
+  EXPECT_EQ(wilson95(0, 0).low, 0);
+  EXPECT_EQ(wilson95(0, 0).high, 1);
+}
+
+}  // namespace
+}  // namespace gannet::report
