@@ -20,6 +20,9 @@ enum class CaptureStatus : std::uint8_t {
   kFinished,  // a replay has no more pairs
 };
 
+// Live: waits by CLOCK_MONOTONIC. Stepped: time is what capture() is told, and it never waits.
+enum class Pace : std::uint8_t { kLive, kStepped };
+
 struct CaptureCounters {
   std::uint64_t frames = 0;
   std::uint64_t dropped = 0;
