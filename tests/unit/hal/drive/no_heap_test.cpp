@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include "hal/drive/dronecan_esc_drive.hpp"
+#include "platform/base/random.hpp"
+#include "tests/support/count_heap.hpp"
+
+namespace gannet::hal {
+namespace {
+
+using namespace dronecan;
+
+TEST(DriveNoHeap, CyclesWithAllMessagesAndForeignFramesTakeNoMemory) {
+  if (!test::kCountsHeap) GTEST_SKIP() << "the sanitizer has its own heap";
+  DriveConfig config;
+  for (int i = 0; i < 8; ++i) config.motors.push_back({.index = i, .node_id = 21 + i});
+  auto sut = std::move(DroneCanEscDrive::create(config)).value();
+  const DriveSetpoint setpoints[8] = {};
+  CanFrame out[64], in[64];
+  NodeInfo info;
+  info.set_name("org.example.esc");
+  Random random(1);
+  std::uint8_t id = 0;
+  const std::uint64_t before = test::heap_calls;
+  for (int cycle = 0; cycle < 5000; ++cycle, id = static_cast<std::uint8_t>((id + 1) % 32)) {
+    const TimePoint now(std::chrono::milliseconds(5 * cycle));
+    for (std::uint8_t node = 21; node < 29; ++node) {
+      TransferHeader header = {.type_id = EscStatus::kType.id, .source = node, .transfer_id = id};
+      int n = to_frames(EscStatus{}, header, in);
+      header.type_id = NodeStatus::kType.id;
+      n += to_frames(NodeStatus{}, header, std::span(in).subspan(static_cast<std::size_t>(n)));
+      header = {.kind = TransferKind::kResponse,
+                .type_id = NodeInfo::kType.id,
+                .source = node,
+                .destination = 10,
+                .transfer_id = id};
+      n += to_frames(info, header, std::span(in).subspan(static_cast<std::size_t>(n)));
+      for (int i = 0; i < n; ++i) sut->receive(in[i], now);
+    }
+    CanFrame foreign = {.id = static_cast<std::uint32_t>(random.next()) & kMaxExtendedId,
+                        .extended = true,
+                        .length = 8};
+    foreign.data[7] = static_cast<std::uint8_t>(random.next());
+    sut->receive(foreign, now);
+    sut->send(setpoints, true, now, out);
+    sut->health(now);
+  }
+  EXPECT_EQ(test::heap_calls - before, 0u);
+  EXPECT_TRUE(sut->nodes()[7].has_info);
+}
+
+}  // namespace
+}  // namespace gannet::hal
