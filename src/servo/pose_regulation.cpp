@@ -46,56 +46,68 @@ Twist<Body> PoseRegulation::on_axes(const Twist<Body>& twist) const {
            p.control_yaw ? twist.angular.z() : 0}};
 }
 
-Twist<Body> PoseRegulation::wished(const PredictedPose& target, const Vector3d& position) const {
+// Only the approach is slewed: the target's own motion is in wish and measurement alike, and what
+// is added to both must be the same in both.
+void PoseRegulation::advance_approach(double seconds) {
   const ServoParams& p = params_;
+  approach_.linear =
+      slewed(approach_.linear,
+             approach(error_.position_m, p.position_gain, p.max_speed_m_s, p.max_acceleration_m_s2),
+             p.max_acceleration_m_s2 * seconds);
+  approach_.angular = slewed(
+      approach_.angular,
+      approach(error_.rotation_rad, p.rotation_gain, p.max_rate_rad_s, p.max_acceleration_rad_s2),
+      p.max_acceleration_rad_s2 * seconds);
+}
+
+Twist<Body> PoseRegulation::wished(const PredictedPose& target, const Vector3d& position) const {
   const Eigen::Quaterniond& turn = hand_from_left_.rotation;
-  const double follow = p.feed_forward ? 1 : 0;
+  const double follow = params_.feed_forward ? 1 : 0;
   // Only what the body turns about counts, here and in ω × p.
   Twist<Body> spin;
-  spin.angular = body_from_hand_.rotation * (approach(error_.rotation_rad, p.rotation_gain,
-                                                      p.max_rate_rad_s, p.max_acceleration_rad_s2) +
-                                             follow * (turn * target.target.angular));
+  spin.angular =
+      body_from_hand_.rotation * (approach_.angular + follow * (turn * target.target.angular));
   Twist<Hand> hand;
   hand.angular = body_from_hand_.rotation.conjugate() * on_axes(spin).angular;
   hand.linear =
-      approach(error_.position_m, p.position_gain, p.max_speed_m_s, p.max_acceleration_m_s2) +
-      follow * (turn * target.target.linear) - hand.angular.cross(position);
+      approach_.linear + follow * (turn * target.target.linear) - hand.angular.cross(position);
   return on_axes(joined_twist(body_from_hand_, hand));
 }
 
-// Own velocity = the target's own minus what the camera sees of it: ṗ = u − v − ω × p.
+// Own velocity = the target's own minus what the camera sees of it: ṗ = u − v − ω × p. Without
+// feed-forward the target is taken to rest here too, for wish and measurement must mean the same:
+// their difference is then what the camera sees, and what the model of the own motion does not
+// know, a current or a push, leaves no lasting error.
 Twist<Body> PoseRegulation::measured(const PredictedPose& target, const Vector3d& position) const {
   const Eigen::Quaterniond& turn = hand_from_left_.rotation;
+  const double follow = params_.feed_forward ? 1 : 0;
   Twist<Hand> hand;
-  hand.angular = turn * (target.target.angular - target.relative.angular);
+  hand.angular = turn * (follow * target.target.angular - target.relative.angular);
   // The left camera's origin is not the hand's: the relative velocity of the target's origin is
   // that in the rigidly joined hand frame, up to the rotation.
-  hand.linear =
-      turn * (target.target.linear - target.relative.linear) - hand.angular.cross(position);
+  hand.linear = turn * (follow * target.target.linear - target.relative.linear) -
+                hand.angular.cross(position);
   return joined_twist(body_from_hand_, hand);
 }
 
 MotionWish PoseRegulation::update(const PredictedPose& target, const Goal& goal, Permit permit,
                                   Duration dt) {
   MotionWish wish;
+  const Transform<Hand, Target> seen = hand_from_left_ * target.left_from_target;
   if (target.valid) {
-    const Transform<Hand, Target> seen = hand_from_left_ * target.left_from_target;
     error_.position_m = seen.translation - goal.hand_from_target.translation;
     error_.rotation_rad =
         rotation_error(seen.rotation * goal.hand_from_target.rotation.conjugate());
     wish.measured = measured(target, seen.translation);
     wish.measured_valid = permit != Permit::kNone;
-    if (permit == Permit::kFull) wish.velocity = wished(target, seen.translation);
   }
   // Stopping is not slewed: a hold or no permit is meant now.
   if (permit == Permit::kFull && target.valid) {
-    const double seconds = to_seconds(dt);
-    wish.velocity.linear =
-        slewed(last_.linear, wish.velocity.linear, params_.max_acceleration_m_s2 * seconds);
-    wish.velocity.angular =
-        slewed(last_.angular, wish.velocity.angular, params_.max_acceleration_rad_s2 * seconds);
+    advance_approach(to_seconds(dt));
+    wish.velocity = wished(target, seen.translation);
+  } else {
+    approach_ = {};
   }
-  last_ = wish.velocity;
   return wish;
 }
 

@@ -6,7 +6,7 @@
 //   v = u + k_p·e − ω × p    e = p − p_goal; u, w: the target's own motion; p: where it is
 //
 // With v the target's position in Σ_H obeys ṗ = −k_p·e, also while the vehicle turns. The approach
-// is limited in speed and by what the acceleration limit can brake in the distance left.
+// is limited in speed, in acceleration, and by what can be braked in the distance left.
 // Servo thread; RT safe.
 #pragma once
 
@@ -29,6 +29,7 @@ class PoseRegulation final : public ServoLaw {
 
  private:
   Eigen::Vector3d rotation_error(const Eigen::Quaterniond& seen_from_goal) const;
+  void advance_approach(double seconds);
   Twist<Body> wished(const PredictedPose& target, const Eigen::Vector3d& position) const;
   Twist<Body> measured(const PredictedPose& target, const Eigen::Vector3d& position) const;
   Twist<Body> on_axes(const Twist<Body>& twist) const;
@@ -37,7 +38,7 @@ class PoseRegulation final : public ServoLaw {
   Transform<Hand, LeftCamera> hand_from_left_;
   Transform<Body, Hand> body_from_hand_;
   ServoError error_;
-  Twist<Body> last_;
+  Twist<Hand> approach_;  // k·e and k·θ, limited
 };
 
 }  // namespace gannet::servo
