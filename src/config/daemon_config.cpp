@@ -47,6 +47,12 @@ void describe(Visitor& v, ClockConfig& c) {
   v.field("step_socket", c.step_socket, {.help = "Socket of the stepped clock."});
 }
 
+void describe(Visitor& v, GpioConfig& c) {
+  v.group("estop", c.estop, "Input: emergency stop, active when pressed.");
+  v.group("release", c.release, "Output: release of the spear or gripper.");
+  v.group("light", c.light, "Output: off, slow, on or fast says the state to people near by.");
+}
+
 void describe(Visitor& v, FramesConfig& c) {
   v.field("kind", c.kind,
           {.choices = {"none", "directory"},
@@ -71,6 +77,7 @@ void describe(Visitor& v, DaemonConfig& c) {
   v.group("camera", c.camera, "Where image pairs come from.");
   v.group("can", c.can, "The bus to the motors.");
   v.group("drive", c.drive, "The motors' protocol and places on the bus.");
+  v.group("gpio", c.gpio, "Digital lines.");
   v.group("track", c.track, "Recognition and the state of a track.");
   v.group("filter", c.filter, "The filter that predicts the pose to now.");
   v.group("servo", c.servo, "From pose to motion.");

@@ -8,6 +8,7 @@
 #include "hal/camera/camera_config.hpp"
 #include "hal/can/can_config.hpp"
 #include "hal/drive/drive_config.hpp"
+#include "hal/gpio/line_config.hpp"
 #include "platform/base/describe.hpp"
 #include "platform/base/result.hpp"
 #include "platform/linux/thread.hpp"
@@ -45,6 +46,13 @@ struct ClockConfig {
   std::string step_socket;  // of a stepped clock
 };
 
+// Digital lines; kind "none" is one that is not fitted.
+struct GpioConfig {
+  hal::LineConfig estop;    // input, active: pressed
+  hal::LineConfig release;  // output of the spear or gripper
+  hal::LineConfig light;    // output: off, slow, on, fast tell the supervisor's state
+};
+
 // What the archive loop does with frames.
 struct FramesConfig {
   std::string kind = "none";
@@ -65,6 +73,7 @@ struct DaemonConfig {
   hal::CameraConfig camera;
   hal::CanConfig can;
   hal::DriveConfig drive;
+  GpioConfig gpio;
   track::TrackConfig track;
   track::FilterConfig filter;
   servo::ServoConfig servo;
