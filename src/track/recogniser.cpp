@@ -37,6 +37,7 @@ Recogniser::Recogniser(const TrackConfig& config, const StereoRig& rig, TargetKi
       genes_(kBatch * 8),
       hypotheses_(kBatch),
       scores_(kBatch) {
+  rivals_.resize(kRivalCells * kRivalCells);
   const auto n = static_cast<std::size_t>(max_points());
   points_.reserve(n);
   coarse_.reserve(n);
@@ -155,6 +156,35 @@ bool Recogniser::refresh_rectangle(const vision::Rectangle& r,
   return assign_levels(std::sqrt(area), step);
 }
 
+void Recogniser::note_rivals(int n) {
+  const auto dimension = static_cast<std::size_t>(space_.dimension());
+  const auto cell = [](float gene) {
+    return std::min(kRivalCells - 1, static_cast<int>(gene * kRivalCells));
+  };
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+    const float* g = genes_.data() + i * dimension;
+    const int at = cell(g[0]) + (dimension == 6 ? kRivalCells * cell(g[1]) : 0);
+    Rival& rival = rivals_[static_cast<std::size_t>(at)];
+    if (scores_[i] > rival.score) rival = {scores_[i], hypotheses_[i].translation};
+  }
+}
+
+// The best score of what is elsewhere: farther away than the target is large, or than a tenth of
+// its distance along the view.
+float Recogniser::best_rival(const vision::Hypothesis& answer) const {
+  const double apart = target_.unscaled ? 0.0 : 0.5 * size_m_.maxCoeff();
+  float best = -1;
+  for (const Rival& r : rivals_) {
+    const double dx = r.translation[0] - answer.translation[0];
+    const double dy = r.translation[1] - answer.translation[1];
+    const double dz = std::abs(r.translation[2] - answer.translation[2]);
+    const bool elsewhere = target_.unscaled ? dz > 0.15 * answer.translation[2]
+                                            : dx * dx + dy * dy > apart * apart;
+    if (elsewhere) best = std::max(best, r.score);
+  }
+  return best;
+}
+
 void Recogniser::score_batch(const vision::PreparedFrame& frame, int level, int n,
                              Parallel& parallel) {
   const int dimension = space_.dimension();
@@ -188,6 +218,7 @@ Recognition Recogniser::recognise(const vision::PreparedFrame& frame,
   std::array<float, 8> best = {};
   if (hint != nullptr) space_.encode(*hint, best);
   optimiser_->begin_frame({best.data(), hint != nullptr ? dimension : 0});
+  std::fill(rivals_.begin(), rivals_.end(), Rival{-1, {0, 0, 0}});
   double spent = 0;
   while (spent < wanted) {
     if (budget.stop != nullptr && budget.stop(budget.context)) break;
@@ -197,6 +228,7 @@ Recognition Recogniser::recognise(const vision::PreparedFrame& frame,
         kBatch, static_cast<std::size_t>(std::max(1.0, std::ceil((wanted - spent) / one))));
     const int n = optimiser_->propose({genes_.data(), room * dimension});
     score_batch(frame, level, n, parallel);
+    if (level == levels - 1) note_rivals(n);
     optimiser_->learn({scores_.data(), static_cast<std::size_t>(n)});
     spent += n * one;
   }
@@ -248,7 +280,15 @@ Recognition Recogniser::finish(const vision::PreparedFrame& frame,
       out.fitness = static_cast<double>(score);
     }
   }
-  out.found = out.fitness >= found_threshold() && has_covariance;
+  const vision::Hypothesis answer = vision::Hypothesis::from(out.left_from_target);
+  float coarse = 0;
+  fitness_->score(target_, frame, fitness_->levels(target_) - 1, {&answer, 1}, {&coarse, 1},
+                  scratch_[0]);
+  out.coarse_fitness = static_cast<double>(coarse);
+  out.rival_fitness = static_cast<double>(best_rival(answer));
+  // A target stands out: what it scores more than the best place elsewhere counts like score.
+  const double margin = std::max(0.0, out.coarse_fitness - std::max(0.0, out.rival_fitness));
+  out.found = out.fitness + margin >= found_threshold() && has_covariance;
   out.reason = out.found ? TrackReason::kNone : TrackReason::kNotFound;
   out.size_m = size_m_;
   if (target_.unscaled) {

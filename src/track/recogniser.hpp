@@ -4,6 +4,7 @@
 // Parallel that it is given; the answer does not depend on it).
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -61,6 +62,8 @@ class Recogniser {
 
   bool assign_levels(double projected_size_px, double spacing_px);
   void score_batch(const vision::PreparedFrame& frame, int level, int n, Parallel& parallel);
+  void note_rivals(int n);
+  float best_rival(const vision::Hypothesis& answer) const;
   Recognition finish(const vision::PreparedFrame& frame, const vision::Hypothesis& best,
                      float best_score, double evaluations);
   double found_threshold() const;
@@ -81,6 +84,14 @@ class Recogniser {
   Eigen::Vector2d size_m_ = Eigen::Vector2d::Zero();
   vision::Rectangle rectangle_;
   Eigen::Vector3d centre_ray_ = Eigen::Vector3d::UnitZ();
+  // The best score in each cell of the searched x–y (or z) range at the coarsest level, and its
+  // place: what the best wrong answer would score.
+  struct Rival {
+    float score;
+    std::array<double, 3> translation;
+  };
+  static constexpr int kRivalCells = 16;
+  std::vector<Rival> rivals_;
   // Batches.
   std::vector<float> genes_;
   std::vector<vision::Hypothesis> hypotheses_;

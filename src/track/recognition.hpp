@@ -39,6 +39,10 @@ struct Recognition {
   Matrix6d covariance = Matrix6d::Zero();  // order as PoseEstimate
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();
   double fitness = 0;
+  // Of the pose and of the best place elsewhere, both on the coarsest level: what tells a target
+  // from the best wrong answer.
+  double coarse_fitness = 0;
+  double rival_fitness = 0;
   double evaluations = 0;
 };
 

@@ -37,28 +37,35 @@ void CorrelationFitness::score(const TargetPoints& target, const PreparedFrame& 
   }
 }
 
-double CorrelationFitness::eye_score(const PointSet& set, const CameraModel& camera,
-                                     const EyePlanes& eye, int level, const PlaneView& view,
-                                     Scratch& scratch) const {
-  std::int32_t* index = scratch.index.data();
-  const int n = camera.project(kernels_, set.x.data(), set.y.data(), set.total_padded, view, level,
-                               index);
-  const double share = static_cast<double>(n) / set.points();
-  if (share < static_cast<double>(options_.least_share)) return share - 1;
-  const bool all_visible = n == set.points();
-  CorrelationSums s;
-  kernels_.correlate(eye.packed[static_cast<std::size_t>(level)].cells, index, set.total_padded,
-                     set.correlation.data(), all_visible, s);
+namespace {
+
+CorrelationSums operator+(const CorrelationSums& a, const CorrelationSums& b) {
+  CorrelationSums sum;
+  for (int c = 0; c < 3; ++c) {
+    sum.i[c] = a.i[c] + b.i[c];
+    sum.ii[c] = a.ii[c] + b.ii[c];
+    sum.im[c] = a.im[c] + b.im[c];
+    sum.m[c] = a.m[c] + b.m[c];
+    sum.mm[c] = a.mm[c] + b.mm[c];
+  }
+  return sum;
+}
+
+}  // namespace
+
+// Mean of the channels' correlations over n points, weighted by the model's contrast in them.
+double CorrelationFitness::mean_correlation(const CorrelationSums& s, int n, const PointSet& set,
+                                            const EyePlanes& eye) const {
   double sum = 0;
   double weights = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    const std::int64_t sum_m = all_visible ? set.sum[c] : s.m[c];
-    const std::int64_t sum_mm = all_visible ? set.sum_squares[c] : s.mm[c];
     // n² times the covariance and the variances, exact.
-    const auto cov = static_cast<double>(std::int64_t{n} * s.im[c] - s.i[c] * sum_m);
-    const auto var_i =
-        static_cast<double>(std::int64_t{n} * s.ii[c] - std::int64_t{s.i[c]} * s.i[c]);
-    const auto var_m = static_cast<double>(std::int64_t{n} * sum_mm - sum_m * sum_m);
+    const auto cov = static_cast<double>(std::int64_t{n} * s.im[c] -
+                                         std::int64_t{s.i[c]} * s.m[c]);
+    const auto var_i = static_cast<double>(std::int64_t{n} * s.ii[c] -
+                                           std::int64_t{s.i[c]} * s.i[c]);
+    const auto var_m = static_cast<double>(std::int64_t{n} * s.mm[c] -
+                                           std::int64_t{s.m[c]} * s.m[c]);
     const double n2 = static_cast<double>(n) * n;
     const double floor = static_cast<double>(c == 0 ? options_.floor_y : options_.floor_uv);
     const double weight = static_cast<double>(c == 0 ? options_.weight_y : options_.weight_uv);
@@ -71,8 +78,38 @@ double CorrelationFitness::eye_score(const PointSet& set, const CameraModel& cam
     sum += w * cov / std::sqrt((var_i + floor_i) * (var_m + floor_m));
     weights += w;
   }
-  if (weights <= 0) return 0;
-  return sum / weights * std::min(1.0, share / static_cast<double>(options_.full_share));
+  return weights > 0 ? sum / weights : 0;
+}
+
+double CorrelationFitness::eye_score(const PointSet& set, const CameraModel& camera,
+                                     const EyePlanes& eye, int level, const PlaneView& view,
+                                     Scratch& scratch) const {
+  std::int32_t* index = scratch.index.data();
+  const int split = set.inside_padded;
+  const int rest = set.total_padded - split;
+  const int n_in =
+      camera.project(kernels_, set.x.data(), set.y.data(), split, view, level, index);
+  const int n_out = camera.project(kernels_, set.x.data() + split, set.y.data() + split, rest,
+                                   view, level, index + split);
+  const double share = static_cast<double>(n_in + n_out) / set.points();
+  if (share < static_cast<double>(options_.least_share)) return share - 1;
+  const std::uint32_t* cells = eye.packed[static_cast<std::size_t>(level)].cells;
+  CorrelationSums in, out;
+  kernels_.correlate(cells, index, split, set.correlation.data(), n_in == set.inside, in);
+  kernels_.correlate(cells, index + split, rest, set.correlation.data() + 4 * split,
+                     n_out == set.outside, out);
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (n_in == set.inside) in.m[c] = set.inside_sum[c], in.mm[c] = set.inside_squares[c];
+    if (n_out == set.outside) {
+      out.m[c] = set.sum[c] - set.inside_sum[c];
+      out.mm[c] = set.sum_squares[c] - set.inside_squares[c];
+    }
+  }
+  const double whole = mean_correlation(in + out, n_in + n_out, set, eye);
+  const double inner = mean_correlation(in, n_in, set, eye);
+  const double a = static_cast<double>(options_.inside_share);
+  return ((1 - a) * whole + a * inner) *
+         std::min(1.0, share / static_cast<double>(options_.full_share));
 }
 
 }  // namespace gannet::vision

@@ -16,6 +16,9 @@ struct CorrelationOptions {
   // A channel of the model counts with var / (var + weight²).
   float weight_y = 12;
   float weight_uv = 5;
+  // Share of S_in's own correlation in the score; the rest is S_in and S_out together. S_out gives
+  // a wide basin and holds plain targets, but behind it a textured ground is noise.
+  float inside_share = 0.5f;
   // Share of the points that an eye must see for full marks, and to count at all.
   float full_share = 0.85f;
   float least_share = 0.5f;
@@ -33,6 +36,8 @@ class CorrelationFitness final : public Fitness {
              Scratch& scratch) const override;
 
  private:
+  double mean_correlation(const CorrelationSums& sums, int n, const PointSet& set,
+                          const EyePlanes& eye) const;
   double eye_score(const PointSet& set, const CameraModel& camera, const EyePlanes& eye, int level,
                    const PlaneView& view, Scratch& scratch) const;
 

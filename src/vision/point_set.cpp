@@ -69,6 +69,7 @@ void PointSet::assign(const std::vector<ModelPoint>& points, const Yuv& backgrou
     const float middle = (high + low) / 2;
     grey_per_step[c] = range / 126.0f;
     sum[c] = sum_squares[c] = 0;
+    inside_sum[c] = inside_squares[c] = 0;
     for (std::size_t i = 0; i < n; ++i) {
       if (std::isnan(x[i])) continue;
       const float step = (channels(colour[i])[c] - middle) / grey_per_step[c];
@@ -76,6 +77,9 @@ void PointSet::assign(const std::vector<ModelPoint>& points, const Yuv& backgrou
       correlation[i / 4 * 16 + 4 * c + i % 4] = m;
       sum[c] += m;
       sum_squares[c] += m * m;
+      if (i >= static_cast<std::size_t>(inside_padded)) continue;
+      inside_sum[c] += m;
+      inside_squares[c] += m * m;
     }
   }
 }

@@ -26,6 +26,8 @@ struct PointSet {
   std::vector<std::int8_t> correlation;    // blocks of 16 bytes for four points
   std::array<std::int32_t, 3> sum = {};    // Σ and Σ² of the correlation values per channel
   std::array<std::int32_t, 3> sum_squares = {};
+  std::array<std::int32_t, 3> inside_sum = {};  // of S_in alone
+  std::array<std::int32_t, 3> inside_squares = {};
   std::array<float, 3> grey_per_step = {1, 1, 1};
 
   int points() const { return inside + outside; }
