@@ -142,4 +142,6 @@ tests: $(TEST_BINARIES)
 unit/%: $B/tests/unit/%/run
 	$<
 
+include tests/support/assets.mk
+
 -include $(shell find $B -name '*.d' 2>/dev/null)

@@ -103,6 +103,7 @@ Renderer::Renderer(const StereoRig& rig, std::vector<Texture> textures,
       caustics_(caustics_picture(), Texture::Edge::kTile),
       blur_x_(gaussian(config.blur_x_px)),
       blur_y_(gaussian(config.blur_y_px)),
+      sensor_(config.sensor),
       water_(Water{}) {
   for (const Intrinsics* camera : {&rig_.left, &rig_.right}) {
     const std::size_t pixels = at(camera->height, camera->width);
@@ -139,17 +140,30 @@ void Renderer::draw_rows(View& view, int first, int end) const {
   }
 }
 
-void Renderer::develop_rows(const View& view, const Sensor& sensor, std::uint64_t key, int first,
-                            int end, Float4* scratch) const {
+void Renderer::develop_rows(const View& view, std::uint64_t key, int first, int end,
+                            Float4* scratch) const {
   const int width = view.camera.width;
   for (int y = first; y < end; y += 2) {
     Float4* rows[2] = {scratch, scratch + width};
     for (int i = 0; i < 2; ++i) {
       blur_column(view.light.data(), width, view.camera.height, y + i, blur_y_, rows[i]);
-      sensor.develop(rows[i], rows[i], width, hashed(key, static_cast<std::uint64_t>(y + i)));
+      sensor_.develop(rows[i], rows[i], width, hashed(key, static_cast<std::uint64_t>(y + i)));
     }
     write_rows(view.target, y, rows[0], rows[1]);
   }
+}
+
+std::vector<std::uint8_t> Renderer::cover(const Scene& scene,
+                                          const Transform<World, LeftCamera>& world_from_left) {
+  View& view = eyes_[0];
+  view.world_from_camera = world_from_left;
+  Scene objects_only = scene;
+  objects_only.background.clear();
+  place(objects_only, 0, view);
+  draw_rows(view, 0, view.camera.height);
+  std::vector<std::uint8_t> mask;
+  for (const Float4& pixel : view.light) mask.push_back(pixel[3] > 0.5f ? 255 : 0);
+  return mask;
 }
 
 void Renderer::render(const Scene& scene, const Transform<World, LeftCamera>& world_from_left,
@@ -163,8 +177,11 @@ void Renderer::render(const Scene& scene, const Transform<World, LeftCamera>& wo
   eyes_[1].world_from_camera.translation = world_from_left(left_from_right.translation);
   eyes_[0].target = left;
   eyes_[1].target = right;
-  water_ = WaterTable(scene.water);
-  const Sensor sensor(config_.sensor, scene.light.lux);
+  if (!(scene.water == water_of_table_)) {
+    water_of_table_ = scene.water;
+    water_ = WaterTable(scene.water);
+  }
+  sensor_.set_light(scene.light.lux);
   for (View& view : eyes_) place(scene, time_s, view);
 
   const int tallest = std::max(rig_.left.height, rig_.right.height);
@@ -192,7 +209,7 @@ void Renderer::render(const Scene& scene, const Transform<World, LeftCamera>& wo
   }
   each([&](View& view, int eye, int first, int end, Float4* scratch) {
     const std::uint64_t key = hashed(hashed(seed_, frame_number), static_cast<std::uint64_t>(eye));
-    develop_rows(view, sensor, key, first, end, scratch);
+    develop_rows(view, key, first, end, scratch);
   });
 }
 

@@ -46,6 +46,11 @@ class Renderer {
               double time_s, std::uint64_t frame_number, Parallel& parallel,
               const ImageTarget& left, const ImageTarget& right);
 
+  // Whether the scene's objects (not its background) cover more than half of each pixel in the left
+  // image: 255 or 0, tight rows. For masks of photos.
+  std::vector<std::uint8_t> cover(const Scene& scene,
+                                  const Transform<World, LeftCamera>& world_from_left);
+
   // Light that reached the sensor in the last picture, before blur in y and before step 4: R, G, B
   // and the share covered by surfaces. Row-major, the camera's width a row.
   const Float4* light(Eye eye) const { return eyes_[static_cast<std::size_t>(eye)].light.data(); }
@@ -62,8 +67,7 @@ class Renderer {
   void place(const Scene& scene, double time_s, View& view);
 
   void draw_rows(View& view, int first, int end) const;
-  void develop_rows(const View& view, const Sensor& sensor, std::uint64_t key, int first, int end,
-                    Float4* scratch) const;
+  void develop_rows(const View& view, std::uint64_t key, int first, int end, Float4* scratch) const;
 
   StereoRig rig_;
   std::vector<Texture> textures_;
@@ -71,6 +75,8 @@ class Renderer {
   std::uint64_t seed_;
   Texture caustics_;
   std::vector<float> blur_x_, blur_y_;  // one-sided weights, the middle first
+  Sensor sensor_;
+  Water water_of_table_;
   WaterTable water_;
   std::vector<View> eyes_;
   std::vector<std::vector<Float4>> scratch_;  // one a worker

@@ -1,9 +1,8 @@
 #include "src/world/renderer_surface.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-
-#include "src/search/exact_math.hpp"
 
 namespace gannet::world {
 namespace {
@@ -12,12 +11,14 @@ constexpr int kRun = 16;             // pixels between two nodes
 constexpr float kMostProbes = 8;     // along the footprint's long side
 constexpr float kNearest_m = 0.02f;  // nothing nearer is drawn
 
+// Within 2e-4: mantissa by a polynomial, no libm, so the same everywhere. x > 0.
 float log2_of(float x) {
-  return static_cast<float>(search::exact_log(std::clamp(static_cast<double>(x), 1e-6, 1e6)) *
-                            1.4426950408889634);
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(x);
+  const float m = std::bit_cast<float>((bits & 0x007fffffu) | 0x3f800000u);
+  const float exponent = static_cast<float>(static_cast<int>(bits >> 23) - 127);
+  return exponent +
+         ((((-0.081615f * m + 0.645142f) * m - 2.120675f) * m + 4.070091f) * m - 2.512853f);
 }
-
-float mixed(float a, float b, float t) { return a + (b - a) * t; }
 
 }  // namespace
 
@@ -110,57 +111,58 @@ Surface::Footprint Surface::footprint(const RayTable& rays, int column, int row)
   const Hit here = hit(x[0], y[0]);
   const Hit right = hit(x[1], y[1]);
   const Hit below = hit(rays.x(row + 1)[column], rays.y(row + 1)[column]);
-  Footprint f;
-  f.level = static_cast<float>(texture_->levels());
+  Footprint f = {{static_cast<float>(texture_->levels()), 1, 0, 0}, splat(1)};
   if (here.depth < kNearest_m || right.depth < kNearest_m || below.depth < kNearest_m) return f;
   const float ux = right.u - here.u, uy = below.u - here.u;
   const float vx = right.v - here.v, vy = below.v - here.v;
-  f.width_u = std::sqrt(ux * ux + uy * uy) + 1e-12f;
-  f.width_v = std::sqrt(vx * vx + vy * vy) + 1e-12f;
+  const float width_u = std::sqrt(ux * ux + uy * uy) + 1e-12f;
+  const float width_v = std::sqrt(vx * vx + vy * vy) + 1e-12f;
   // The pixel's ellipse in texels: J Jᵀ = [a b; b d], its eigenvalues are the squared half axes.
   const float w = static_cast<float>(texture_->width()), h = static_cast<float>(texture_->height());
-  const float a = w * w * f.width_u * f.width_u, d = h * h * f.width_v * f.width_v;
+  const float a = w * w * width_u * width_u, d = h * h * width_v * width_v;
   const float b = w * h * (ux * vx + uy * vy);
   const float middle = 0.5f * (a + d);
   const float spread = std::sqrt(0.25f * (a - d) * (a - d) + b * b);
   const float longest = std::sqrt(middle + spread);
   const float shortest =
       std::max(std::sqrt(std::max(middle - spread, 0.0f)), longest / kMostProbes);
-  f.level = log2_of(shortest);
-  f.probes = std::clamp(longest / std::max(shortest, 1.0f), 1.0f, kMostProbes);
+  const float probes = std::clamp(longest / std::max(shortest, 1.0f), 1.0f, kMostProbes);
   // Eigenvector of the long axis, the better conditioned of the two ways to write it.
   const float ex = a >= d ? middle + spread - d : b;
   const float ey = a >= d ? b : middle + spread - a;
-  const float norm = std::sqrt(ex * ex + ey * ey);
-  if (norm > 0) f.u = ex / norm * longest / w, f.v = ey / norm * longest / h;
+  const float scale = longest / std::max(std::sqrt(ex * ex + ey * ey), 1e-20f);
+  f.filter = Float4{log2_of(shortest), probes, ex * scale / w, ey * scale / h};
+  f.edge = Float4{width_u, width_v, 1, 1};
   return f;
 }
 
-Float4 Surface::filtered(float u, float v, const Footprint& f) const {
-  const auto look = [&](float at_u, float at_v) {
-    if (tiled_) {
-      at_u -= static_cast<float>(floor_int(at_u));
-      at_v -= static_cast<float>(floor_int(at_v));
-    } else {
-      at_u = std::clamp(at_u, 0.0f, 1.0f);
-      at_v = std::clamp(at_v, 0.0f, 1.0f);
-    }
-    return texture_->sample(at_u, at_v, f.level);
-  };
-  if (f.probes < 1.25f) return look(u, v);
-  const int probes = static_cast<int>(f.probes + 0.75f);
+inline Float4 Surface::look(Float4 place, float level) const {
+  if (tiled_) {
+    place -= __builtin_convertvector(__builtin_convertvector(place, Int4), Float4);
+    place = place < splat(0) ? place + splat(1) : place;
+  } else {
+    place = min4(max4(place, splat(0)), splat(1));
+  }
+  return texture_->sample(place, level);
+}
+
+inline Float4 Surface::filtered(float u, float v, Float4 filter) const {
+  const Float4 place = {u, v, u, v};
+  if (filter[1] < 1.25f) return look(place, filter[0]);
+  const int probes = static_cast<int>(filter[1] + 0.75f);
+  const Float4 axis = {filter[2], filter[3], filter[2], filter[3]};
   Float4 sum = splat(0);
   for (int i = 0; i < probes; ++i) {
     const float at = (static_cast<float>(i) + 0.5f) / static_cast<float>(probes) - 0.5f;
-    sum += look(u + at * f.u, v + at * f.v);
+    sum += look(place + axis * splat(at), filter[0]);
   }
   return sum * (1.0f / static_cast<float>(probes));
 }
 
 // The share of the pixel inside the rectangle: distance to each edge in pixels, ramp of one pixel.
-float Surface::border(float u, float v, const Footprint& f) const {
-  const float across = std::min(u, 1 - u) / f.width_u + 0.5f;
-  const float down = std::min(v, 1 - v) / f.width_v + 0.5f;
+inline float Surface::border(float u, float v, Float4 edge) {
+  const float across = std::min(u, 1 - u) / edge[0] + 0.5f;
+  const float down = std::min(v, 1 - v) / edge[1] + 0.5f;
   return std::clamp(across, 0.0f, 1.0f) * std::clamp(down, 0.0f, 1.0f);
 }
 
@@ -183,15 +185,10 @@ void Surface::draw_run(const float* x, const float* y, int count, const Footprin
     const Hit at = hit(x[i], y[i]);
     if (!(at.depth > kNearest_m)) continue;
     const float t = static_cast<float>(i) * (1.0f / kRun);
-    const Footprint f = {mixed(a.level, b.level, t),
-                         mixed(a.u, b.u, t),
-                         mixed(a.v, b.v, t),
-                         mixed(a.width_u, b.width_u, t),
-                         mixed(a.width_v, b.width_v, t),
-                         mixed(a.probes, b.probes, t)};
-    const float share = tiled_ ? 1.0f : border(at.u, at.v, f);
+    const Float4 filter = a.filter + (b.filter - a.filter) * t;
+    const float share = tiled_ ? 1.0f : border(at.u, at.v, a.edge + (b.edge - a.edge) * t);
     if (share <= 0) continue;
-    Float4 light = filtered(at.u, at.v, f) * shade_ * share;
+    Float4 light = filtered(at.u, at.v, filter) * shade_ * share;
     if (caustics_.pattern) {
       const float g = gathered(at.u, at.v);
       light *= Float4{g, g, g, 1};
@@ -207,7 +204,8 @@ void Surface::draw_row(const RayTable& rays, int row, const WaterTable& water, F
   Footprint left = footprint(rays, start, row);
   for (int column = start; column < end_column_; column += kRun) {
     Footprint right = footprint(rays, std::min(column + kRun, columns_ - 1), row);
-    if (left.u * right.u + left.v * right.v < 0) right.u = -right.u, right.v = -right.v;
+    const Float4 same = left.filter * right.filter;  // the axis has no sign of its own
+    if (same[2] + same[3] < 0) right.filter *= Float4{1, 1, -1, -1};
     draw_run(rays.x(row) + column, rays.y(row) + column, std::min(kRun, columns_ - column), left,
              right, water, out + column);
     left = right;

@@ -56,10 +56,8 @@ class Surface {
  private:
   // The pixel's footprint in the texture; linear between nodes 16 pixels apart, so continuous.
   struct Footprint {
-    float level = 0;                 // of the texture, by the footprint's short side
-    float u = 0, v = 0;              // its long side
-    float width_u = 1, width_v = 1;  // |∇u|, |∇v| for one pixel: the border's softness
-    float probes = 1;
+    Float4 filter;  // level by the short side; number of probes along the long side; its u, v
+    Float4 edge;    // |∇u|, |∇v| for one pixel: how soft the border is
   };
   struct Hit {
     float u, v, depth;
@@ -70,8 +68,9 @@ class Surface {
             c_ * inverse};
   }
   Footprint footprint(const RayTable& rays, int column, int row) const;
-  Float4 filtered(float u, float v, const Footprint& f) const;
-  float border(float u, float v, const Footprint& f) const;
+  Float4 look(Float4 place, float level) const;
+  Float4 filtered(float u, float v, Float4 filter) const;
+  static float border(float u, float v, Float4 edge);
   float gathered(float u, float v) const;
   void draw_run(const float* x, const float* y, int count, const Footprint& a, const Footprint& b,
                 const WaterTable& water, Float4* out) const;

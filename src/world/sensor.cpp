@@ -78,17 +78,19 @@ Exposure expose(const SensorConfig& c, double lux) {
 }
 
 Sensor::Sensor(const SensorConfig& config, double lux)
-    : noisy_(config.noise),
-      exposure_(expose(config, lux)),
-      electrons_(static_cast<float>(exposure_.electrons_at_white)),
-      read_variance_(static_cast<float>(config.read_noise_electrons * config.read_noise_electrons)),
-      signal_(static_cast<float>(exposure_.gain / config.full_well_electrons)),
-      curve_(kCurve + 1),
-      normal_(normal_quantiles()) {
+    : config_(config), curve_(kCurve + 1), normal_(normal_quantiles()) {
   for (int i = 0; i <= kCurve; ++i) {
     curve_[static_cast<std::size_t>(i)] =
         static_cast<float>(255 * srgb_from_linear(static_cast<double>(i) / kCurve));
   }
+  set_light(lux);
+}
+
+void Sensor::set_light(double lux) {
+  exposure_ = expose(config_, lux);
+  electrons_ = static_cast<float>(exposure_.electrons_at_white);
+  read_variance_ = static_cast<float>(config_.read_noise_electrons * config_.read_noise_electrons);
+  signal_ = static_cast<float>(exposure_.gain / config_.full_well_electrons);
 }
 
 Float4 Sensor::noise(std::uint64_t bits) const {
@@ -100,7 +102,7 @@ void Sensor::develop(const Float4* light, Float4* codes, int count, std::uint64_
   const float scale = signal_ * kCurve;
   for (int i = 0; i < count; ++i) {
     Float4 electrons = max4(light[i], splat(0)) * electrons_;
-    if (noisy_) {
+    if (config_.noise) {
       const Float4 variance = electrons + read_variance_;
       const Float4 sigma = {std::sqrt(variance[0]), std::sqrt(variance[1]), std::sqrt(variance[2]),
                             0};

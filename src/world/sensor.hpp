@@ -49,7 +49,8 @@ Exposure expose(const SensorConfig& config, double lux);
 
 class Sensor {
  public:
-  Sensor(const SensorConfig& config, double lux);
+  explicit Sensor(const SensorConfig& config, double lux = 400);
+  void set_light(double lux);  // exposes anew
 
   const Exposure& exposure() const { return exposure_; }
 
@@ -64,11 +65,11 @@ class Sensor {
  private:
   Float4 noise(std::uint64_t bits) const;
 
-  bool noisy_;
+  SensorConfig config_;
   Exposure exposure_;
-  float electrons_;            // of x = 1
-  float read_variance_;        // electrons²
-  float signal_;               // of one electron
+  float electrons_ = 0;        // of x = 1
+  float read_variance_ = 0;    // electrons²
+  float signal_ = 0;           // of one electron
   std::vector<float> curve_;   // codes by signal, kCurve + 1 entries
   std::vector<float> normal_;  // quantiles of the normal law, 2¹² entries, variance 1
 };

@@ -132,6 +132,12 @@ Texture::Texture(const Raster8& picture, Edge edge) : edge_(edge) {
     width = std::max(1, width / 2);
     height = std::max(1, height / 2);
   }
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    const TextureLevel& a = levels_[i];
+    const TextureLevel& b = levels_[std::min(i + 1, levels_.size() - 1)];
+    scale_.push_back(Float4{static_cast<float>(a.width), static_cast<float>(a.height),
+                            static_cast<float>(b.width), static_cast<float>(b.height)});
+  }
 }
 
 void Texture::add_level(int width, int height, const std::vector<Float4>& texels) {
@@ -139,7 +145,7 @@ void Texture::add_level(int width, int height, const std::vector<Float4>& texels
   level.width = width;
   level.height = height;
   level.stride = width + 2;
-  level.first = texels_.size() + static_cast<std::size_t>(level.stride) + 1;
+  level.first = texels_.size();
   for (int y = -1; y <= height; ++y) {
     for (int x = -1; x <= width; ++x) {
       texels_.push_back(

@@ -127,6 +127,25 @@ Raster8 noise_picture(int side, std::uint64_t seed) {
   return picture;
 }
 
+Raster8 pebbles_tint(int side, std::uint64_t seed) {
+  Raster8 picture(side, side, 3);
+  Random random(seed);
+  for (std::size_t i = 0; i < picture.samples.size(); i += 3) {
+    picture.samples[i] = 138, picture.samples[i + 1] = 126, picture.samples[i + 2] = 106;
+  }
+  for (const int parts : {4, 8, 16, 58}) {  // divisors of the sides in use: it repeats
+    const int cell = std::max(1, side / parts);
+    const auto light = octave(side, cell, random);
+    const auto hue = octave(side, cell, random);
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      std::uint8_t* p = picture.samples.data() + 3 * i;
+      const double l = 12 * static_cast<double>(light[i]), h = 16 * static_cast<double>(hue[i]);
+      p[0] = byte(p[0] + l + h), p[1] = byte(p[1] + l), p[2] = byte(p[2] + l - 0.7 * h);
+    }
+  }
+  return picture;
+}
+
 // Sunlight under waves is a net of bright lines: where a smooth random height crosses zero.
 Raster8 caustics_picture() {
   constexpr int kSide = 256;

@@ -14,6 +14,9 @@ image_file::Raster8 pebbles_picture(int side, std::uint64_t seed);
 // Noise with equal power in every octave, coloured; RGB. Detail at any distance.
 image_file::Raster8 noise_picture(int side, std::uint64_t seed);
 
+// Slow browns and greens about a middle of 128, to colour a grey photograph of a bottom; RGB.
+image_file::Raster8 pebbles_tint(int side, std::uint64_t seed);
+
 // Light gathered by waves; grey, linear mean about 1/4 where two copies overlap.
 image_file::Raster8 caustics_picture();
 

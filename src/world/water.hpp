@@ -17,6 +17,8 @@ struct Water {
   std::vector<double> attenuation_per_m = {0, 0, 0};  // β_D of R, G, B
   std::vector<double> backscatter_per_m = {0, 0, 0};  // β_B of R, G, B
   std::vector<double> veil = {0, 0, 0};               // B of R, G, B
+
+  bool operator==(const Water&) const = default;
 };
 void describe(Visitor& v, Water& c);
 
