@@ -27,10 +27,10 @@ class BitWriter {
 
   template <class Int>
   void field(const Int& value, int bits) {
+    if (bits == 64) return put(static_cast<std::uint64_t>(value), bits);
     constexpr bool is_signed = std::is_signed_v<Int>;
     const std::int64_t highest = (std::int64_t{1} << (bits - (is_signed ? 1 : 0))) - 1;
     const std::int64_t lowest = is_signed ? -highest - 1 : 0;
-    if (bits == 64) return put(static_cast<std::uint64_t>(value), bits);
     const auto wide = static_cast<std::int64_t>(value);
     put(static_cast<std::uint64_t>(wide < lowest ? lowest : wide > highest ? highest : wide), bits);
   }
