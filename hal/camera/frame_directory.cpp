@@ -82,12 +82,6 @@ std::optional<std::int64_t> number_at_end(std::string_view name) {
   return number;
 }
 
-struct TimeRow {
-  std::string frame;
-  double time_s;
-  int line;
-};
-
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())) != 0)
     text.remove_prefix(1);
@@ -96,8 +90,50 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-Result<std::vector<TimeRow>> parse_times(const std::string& path, std::string_view text) {
-  std::vector<TimeRow> rows;
+// Each pair's time by name or number. False: some pair or row has no partner.
+bool match_by_name(const std::vector<FrameTime>& rows, std::vector<FramePair>& pairs) {
+  std::map<std::string, std::size_t> by_name;
+  std::map<std::int64_t, std::size_t> by_number;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    by_name[pairs[i].name] = i;
+    if (const auto number = number_at_end(pairs[i].name)) by_number[*number] = i;
+  }
+  std::vector<bool> matched(pairs.size());
+  for (const FrameTime& row : rows) {
+    const auto named = by_name.find(row.frame);
+    const auto number = number_at_end(row.frame);
+    const auto numbered = number ? by_number.find(*number) : by_number.end();
+    if (named == by_name.end() && numbered == by_number.end()) return false;
+    const std::size_t pair = named != by_name.end() ? named->second : numbered->second;
+    matched[pair] = true;
+    pairs[pair].time_s = row.time_s;
+  }
+  return std::find(matched.begin(), matched.end(), false) == matched.end();
+}
+
+Result<void> read_times(const std::string& path, std::vector<FramePair>& pairs) {
+  const auto bytes = linux_os::read_file(path, kMaxTimesBytes);
+  if (!bytes) return bytes.error();
+  const auto rows =
+      parse_frame_times(path, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  if (!rows) return rows.error();
+  if (!match_by_name(*rows, pairs)) {
+    if (rows->size() != pairs.size())
+      return Error{path + ": " + std::to_string(rows->size()) + " rows for " +
+                   std::to_string(pairs.size()) + " pairs, and their names do not fit"};
+    for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].time_s = (*rows)[i].time_s;
+  }
+  for (std::size_t i = 1; i < pairs.size(); ++i)
+    if (!(pairs[i].time_s > pairs[i - 1].time_s))
+      return Error{path + ": the time of '" + pairs[i].name + "' is not after that of '" +
+                   pairs[i - 1].name + "', the pair before it by name"};
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<FrameTime>> parse_frame_times(const std::string& path, std::string_view text) {
+  std::vector<FrameTime> rows;
   for (int line = 1; !text.empty(); ++line) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view row = trimmed(text.substr(0, end));
@@ -118,52 +154,10 @@ Result<std::vector<TimeRow>> parse_times(const std::string& path, std::string_vi
       return Error{where + "'" + std::string(number) + "' is not a time in seconds"};
     if (!rows.empty() && !(time_s > rows.back().time_s))
       return Error{where + "times must rise from row to row"};
-    rows.push_back({std::string(trimmed(row.substr(0, comma))), time_s, line});
+    rows.push_back({std::string(trimmed(row.substr(0, comma))), time_s});
   }
   return rows;
 }
-
-// Each pair's time by name or number. False: some pair or row has no partner.
-bool match_by_name(const std::vector<TimeRow>& rows, std::vector<FramePair>& pairs) {
-  std::map<std::string, std::size_t> by_name;
-  std::map<std::int64_t, std::size_t> by_number;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    by_name[pairs[i].name] = i;
-    if (const auto number = number_at_end(pairs[i].name)) by_number[*number] = i;
-  }
-  std::vector<bool> matched(pairs.size());
-  for (const TimeRow& row : rows) {
-    const auto named = by_name.find(row.frame);
-    const auto number = number_at_end(row.frame);
-    const auto numbered = number ? by_number.find(*number) : by_number.end();
-    if (named == by_name.end() && numbered == by_number.end()) return false;
-    const std::size_t pair = named != by_name.end() ? named->second : numbered->second;
-    matched[pair] = true;
-    pairs[pair].time_s = row.time_s;
-  }
-  return std::find(matched.begin(), matched.end(), false) == matched.end();
-}
-
-Result<void> read_times(const std::string& path, std::vector<FramePair>& pairs) {
-  const auto bytes = linux_os::read_file(path, kMaxTimesBytes);
-  if (!bytes) return bytes.error();
-  const auto rows =
-      parse_times(path, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
-  if (!rows) return rows.error();
-  if (!match_by_name(*rows, pairs)) {
-    if (rows->size() != pairs.size())
-      return Error{path + ": " + std::to_string(rows->size()) + " rows for " +
-                   std::to_string(pairs.size()) + " pairs, and their names do not fit"};
-    for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].time_s = (*rows)[i].time_s;
-  }
-  for (std::size_t i = 1; i < pairs.size(); ++i)
-    if (!(pairs[i].time_s > pairs[i - 1].time_s))
-      return Error{path + ": the time of '" + pairs[i].name + "' is not after that of '" +
-                   pairs[i - 1].name + "', the pair before it by name"};
-  return {};
-}
-
-}  // namespace
 
 Result<FrameDirectory> list_frames(const std::string& directory, double rate_hz) {
   const fs::path root(directory);

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "platform/base/result.hpp"
@@ -28,6 +29,14 @@ struct FrameDirectory {
   bool has_times = false;        // from times.csv
   double interval_s = 0;         // mean distance of two pairs; 1 / rate where there is only one
 };
+
+struct FrameTime {
+  std::string frame;
+  double time_s = 0;
+};
+
+// The rows of a times.csv; path is for the error alone. Any text may be given.
+Result<std::vector<FrameTime>> parse_frame_times(const std::string& path, std::string_view text);
 
 // rate_hz > 0: pairs per second where there is no times.csv.
 Result<FrameDirectory> list_frames(const std::string& directory, double rate_hz);
