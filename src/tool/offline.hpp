@@ -1,0 +1,13 @@
+// Subcommands that need no daemon: they work on files. Normal thread.
+#pragma once
+
+#include "src/tool/subcommands.hpp"
+
+namespace gannet::tool {
+
+Subcommand model_build_subcommand();  // photo → .gannet file
+Subcommand locate_subcommand();       // one stereo pair → pose
+Subcommand track_subcommand();        // a folder of pairs → a table of poses
+Subcommand map_subcommand();          // the fitness over x and y
+
+}  // namespace gannet::tool

@@ -1,0 +1,90 @@
+#include "src/tool/subcommands.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "platform/base/nearest_word.hpp"
+#include "src/tool/offline.hpp"
+
+namespace gannet::tool {
+namespace {
+
+constexpr std::string_view kPrefix = "gannet ";
+
+Command top_command() {
+  Command command = {.name = "gannet",
+                     .summary =
+                         "builds models of targets, finds them in stereo images, and talks "
+                         "to gannetd",
+                     .description = "Each subcommand has its own --help and manual page."};
+  command.positionals = {{.name = "subcommand", .required = true, .help = "What to do."}};
+  for (const Subcommand& sub : subcommands()) {
+    command.positionals.push_back(
+        {.name = sub.command.name.substr(kPrefix.size()), .help = sub.command.summary + "."});
+    std::string page = sub.command.name;
+    std::replace(page.begin(), page.end(), ' ', '-');
+    command.see_also += page + "(1), ";
+  }
+  command.see_also += "gannetd(8), gannet-world(1), gannet.toml(5)";
+  command.example = "gannet model build --help";
+  return command;
+}
+
+// How many of the first words make this subcommand's name; 0: they do not.
+std::size_t matched_words(const Subcommand& sub, std::span<const std::string> args) {
+  std::string words = "gannet";
+  for (std::size_t n = 1; n <= args.size() && n <= 2; ++n) {
+    words += " " + args[n - 1];
+    if (words == sub.command.name) return n;
+  }
+  return 0;
+}
+
+int run_subcommand(const Subcommand& sub, std::span<const std::string> args) {
+  const bool asks = std::any_of(args.begin(), args.end(), [](const std::string& arg) {
+    return arg == "--help" || arg == "-h" || arg == "--version" || arg == "--man-page";
+  });
+  if (!asks && sub.tell_bad_arguments != nullptr) {
+    const Result<Arguments> parsed = parse(sub.command, args);
+    if (!parsed) sub.tell_bad_arguments(args, parsed.error().text);
+  }
+  Arguments arguments;
+  if (const auto code = begin_command(sub.command, args, arguments)) return *code;
+  return sub.run(arguments);
+}
+
+std::string usage_hint(const std::string& word) {
+  std::vector<std::string> known;
+  for (const Subcommand& sub : subcommands())
+    known.push_back(sub.command.name.substr(kPrefix.size()));
+  return "'" + word + "' is no subcommand" + did_you_mean(word, known) +
+         "; `gannet --help` lists them";
+}
+
+}  // namespace
+
+std::span<const Subcommand> subcommands() {
+  static const std::vector<Subcommand> kTable = {model_build_subcommand(), locate_subcommand()};
+  return kTable;
+}
+
+int run_gannet(std::span<const std::string> args) {
+  const Subcommand* best = nullptr;
+  std::size_t most = 0;
+  for (const Subcommand& sub : subcommands()) {
+    const std::size_t n = matched_words(sub, args);
+    if (n <= most) continue;
+    most = n;
+    best = &sub;
+  }
+  if (best != nullptr) return run_subcommand(*best, args.subspan(most));
+  if (!args.empty() && args[0][0] != '-') {
+    std::fprintf(stderr, "gannet: %s\n", usage_hint(args[0]).c_str());
+    return 2;
+  }
+  Arguments arguments;
+  return begin_command(top_command(), args, arguments).value_or(2);
+}
+
+}  // namespace gannet::tool
