@@ -27,7 +27,8 @@ struct TrackConfig {
   double roll_deg = 45;
   double coast_s = 0.5;                // locked → coasting → lost after this long unseen
   int lock_frames = 2;                 // consecutive finds before locked
-  search::SearchConfig search;
+  double jump_m = 0.2;                 // farther from the prediction: doubted
+  search::SearchConfig search;         // described beside this one, as group "search"
 };
 
 void describe(Visitor& v, TrackConfig& c);
