@@ -92,6 +92,8 @@ class StageTimer {
     at(stage).add(now - before_);
     before_ = now;
   }
+  // A duration that was measured otherwise, such as that of the whole cycle.
+  void add(int stage, Duration d) { at(stage).add(d); }
   const std::array<StageStats, static_cast<std::size_t>(N)>& stages() const { return stages_; }
 
  private:

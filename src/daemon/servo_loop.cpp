@@ -1,0 +1,315 @@
+#include "src/daemon/servo_loop.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "platform/linux/clock.hpp"
+#include "src/telemetry/event_codes.hpp"
+
+#include "platform/base/rt_only.hpp"
+
+namespace gannet::daemon {
+
+using linux_os::monotonic_now;
+using safety::Cause;
+using telemetry::make_event;
+
+namespace {
+
+Transform<Body, LeftCamera> camera_in_body(const StereoRig& rig) {
+  return rig.body_from_hand ? *rig.body_from_hand * rig.hand_from_left
+                            : Transform<Body, LeftCamera>{};
+}
+
+// A rigid body's velocity as the camera on it has it.
+Twist<LeftCamera> seen_by_camera(const Twist<Body>& body,
+                                 const Transform<Body, LeftCamera>& body_from_left) {
+  const Eigen::Quaterniond left_from_body = body_from_left.rotation.conjugate();
+  return {left_from_body * (body.linear + body.angular.cross(body_from_left.translation)),
+          left_from_body * body.angular};
+}
+
+double largest_sigma(const Matrix12d& covariance) {
+  const Eigen::Matrix3d position = covariance.topLeftCorner<3, 3>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(position, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues()(2)));
+}
+
+}  // namespace
+
+ServoLoop::ServoLoop(const Links& links, const StereoRig& rig, const safety::SafetyConfig& safety,
+                     const track::FilterConfig& filter, const servo::ServoParams& params,
+                     Duration period)
+    : links_(links),
+      safety_(safety),
+      period_(period),
+      body_from_left_(camera_in_body(rig)),
+      filter_(filter),
+      overrun_watch_(safety.overrun_limit, from_seconds(safety.overrun_window_s)),
+      bus_watch_(from_seconds(safety.bus_age_s)),
+      goal_(servo::goal_of(params)),
+      setpoints_(static_cast<std::size_t>(links.vehicle->motors())),
+      out_(links.drives == nullptr ? 0 : static_cast<std::size_t>(links.drives->max_frames())),
+      in_(64) {
+  const char* names[] = {"receive", "targets", "predict", "supervise", "law",
+                         "gate",    "send",    "record",  "cycle"};
+  for (int i = 0; i <= kCycle; ++i) {
+    report_.loop.timer.name(i, names[i], i == kCycle ? period : Duration{});
+  }
+}
+
+void ServoLoop::step(TimePoint now, std::int64_t missed, Duration late) {
+  auto& timer = report_.loop.timer;
+  const TimePoint begin = monotonic_now();
+  timer.begin(begin);
+  receive(now);
+  timer.lap(kReceive, monotonic_now());
+  read_targets(now);
+  timer.lap(kTargets, monotonic_now());
+  report_.target = filter_.predict(now);
+  timer.lap(kPredict, monotonic_now());
+  supervise(now, missed);
+  timer.lap(kSupervise, monotonic_now());
+  steer(now);
+  timer.lap(kLaw, monotonic_now());
+  // The permit gate: nothing moves a motor but through this line.
+  const bool enable = report_.outputs.permit != Permit::kNone && report_.outputs.drive_enable &&
+                      setpoints_are_finite();
+  timer.lap(kGate, monotonic_now());
+  send(enable, now);
+  timer.lap(kSend, monotonic_now());
+  record(now, late);
+  const TimePoint end = monotonic_now();
+  timer.lap(kRecord, end);
+  timer.add(kCycle, end - begin);
+}
+
+void ServoLoop::shut_down(TimePoint now) {
+  for (auto& setpoint : setpoints_) setpoint.value = 0;
+  send(false, now);
+}
+
+void ServoLoop::receive(TimePoint now) {
+  receive_commands(now);
+  if (links_.bus != nullptr) {
+    int n = 0;
+    int rounds = 0;  // bounded: a flooded bus must not hold the loop
+    do {
+      n = links_.bus->receive(in_, now);
+      for (int i = 0; i < n; ++i) {
+        const auto& received = in_[static_cast<std::size_t>(i)];
+        links_.drives->receive(received.frame, received.time);
+      }
+      if (n > 0) bus_watch_.feed(now);
+    } while (n == static_cast<int>(in_.size()) && ++rounds < 8);
+  }
+  report_.estop = safety::Line::kInactive;  // no line by config
+  if (links_.estop == nullptr) return;
+  const hal::DigitalInput::Reading reading = links_.estop->read(now);
+  if (reading.level == hal::Level::kUnknown) {
+    report_.estop = safety::Line::kUnknown;
+  } else if (reading.level == hal::Level::kHigh || reading.rose) {
+    report_.estop = safety::Line::kActive;
+  }
+}
+
+// One request a cycle, so that none hides another; hand commands: the newest counts.
+void ServoLoop::receive_commands(TimePoint now) {
+  request_ = safety::Request::kNone;
+  ServoCommand command;
+  while (request_ == safety::Request::kNone && links_.commands->pop(command)) {
+    report_.served = command.number;
+    request_ = command.request;
+    if (!command.by_hand) continue;
+    hand_ = command.velocity;
+    hand_time_ = now;
+    report_.by_hand_active = true;
+  }
+  if (request_ == safety::Request::kDisarm || request_ == safety::Request::kStop) {
+    report_.by_hand_active = false;
+  }
+  const Duration time_out = from_seconds(safety_.manual_age_s);
+  if (now - hand_time_ > time_out) report_.by_hand_active = false;
+  if (links_.params->fresh()) {
+    const servo::ServoParams& params = links_.params->read();
+    links_.law->set(params);
+    goal_ = servo::goal_of(params);
+  }
+}
+
+void ServoLoop::read_targets(TimePoint now) {
+  SeenTarget seen;
+  while (links_.targets->pop(seen)) {
+    track_state_ = seen.estimate.state;
+    if (seen.estimate.reason == TrackReason::kNoTarget) filter_.clear();
+    const track::FilterResult result = filter_.update(seen.estimate, now);
+    if (result == track::FilterResult::kReset || result == track::FilterResult::kStarted) {
+      links_.events->raise(make_event(telemetry::kFilterReset, now, seen.estimate.target_id));
+    }
+    if (seen.estimate.found) {
+      newest_ = seen;
+      newest_is_new_ = true;
+    }
+  }
+}
+
+void ServoLoop::supervise(TimePoint now, std::int64_t missed) {
+  overrun_watch_.note(static_cast<int>(missed), now);
+  if (missed > 0) {
+    report_.overruns += static_cast<std::uint64_t>(missed);
+    links_.events->raise(make_event(telemetry::kOverrun, now, static_cast<double>(missed),
+                                    static_cast<double>(report_.overruns)));
+  }
+  const safety::Memory before = report_.supervisor;
+  const safety::Decision decision = safety::step(safety_, before, inputs_at(now), now);
+  report_.supervisor = decision.memory;
+  report_.outputs = decision.outputs;
+  if (request_ != safety::Request::kNone) report_.refused = decision.outputs.refused;
+  tell_changes(before, now);
+}
+
+safety::Inputs ServoLoop::inputs_at(TimePoint now) {
+  safety::Inputs inputs;
+  const SharedFacts& facts = *links_.facts;
+  inputs.started = facts.capture_cycles.load(std::memory_order_relaxed) > 0 &&
+                   facts.vision_cycles.load(std::memory_order_relaxed) > 0;
+  inputs.estop = report_.estop;
+  inputs.request = request_;
+  inputs.has_vehicle = links_.vehicle->motors() > 0;
+  inputs.internal_fault = internal_fault_;
+  tell_devices(now);
+  inputs.drive_fault = report_.drives.any_fault;
+  inputs.drives_alive = report_.drives.all_alive;
+  inputs.bus_ok =
+      links_.bus == nullptr || (report_.bus != hal::BusState::kDown &&
+                                report_.bus != hal::BusState::kOff && bus_watch_.fresh(now));
+  inputs.overruns = overrun_watch_.exceeded(now);
+  const std::int64_t last_frame = facts.last_frame_ns.load(std::memory_order_relaxed);
+  inputs.camera_alive =
+      last_frame != 0 && now - time_from_ns(last_frame) <= from_seconds(safety_.camera_age_s);
+  inputs.manual_active = report_.by_hand_active;
+  inputs.manual_age = now - hand_time_;
+  inputs.track = track_state_;
+  inputs.estimate_valid = report_.target.valid;
+  inputs.estimate_age = report_.target.age;
+  inputs.estimate_sigma_m = largest_sigma(report_.target.covariance);
+  return inputs;
+}
+
+void ServoLoop::steer(TimePoint now) {
+  const Duration dt = last_ == TimePoint{} ? period_ : now - last_;
+  last_ = now;
+  const Permit permit = report_.outputs.permit;
+  MotionWish wish = links_.law->update(report_.target, goal_, permit, dt);
+  report_.error = links_.law->error();
+  if (report_.outputs.by_hand) {
+    wish = {};
+    wish.velocity = hand_;
+  }
+  const vehicle::Reach reach = links_.vehicle->update(wish, permit, dt, setpoints_);
+  report_.reach_scale = reach.scale;
+  note_own_motion(now);
+  if (!setpoints_are_finite() && !internal_fault_) {
+    internal_fault_ = true;
+    links_.events->raise(make_event(telemetry::kInternalFault, now, kLaw));
+  }
+}
+
+// What the vehicle does by command must not look like the target's motion. Without a vehicle
+// nobody knows it, and the filter's velocities are relative to the camera.
+void ServoLoop::note_own_motion(TimePoint now) {
+  if (links_.vehicle->motors() == 0) return;
+  filter_.note_own_motion(now, seen_by_camera(links_.vehicle->own_velocity(), body_from_left_));
+}
+
+bool ServoLoop::setpoints_are_finite() const {
+  return std::all_of(setpoints_.begin(), setpoints_.end(),
+                     [](const hal::DriveSetpoint& s) { return std::isfinite(s.value); });
+}
+
+void ServoLoop::send(bool enable, TimePoint now) {
+  write_light(now);
+  if (links_.bus == nullptr) return;
+  const int n = links_.drives->send(setpoints_, enable, now, out_);
+  const std::span<const hal::CanFrame> frames(out_.data(), static_cast<std::size_t>(n));
+  const int sent = n > 0 ? links_.bus->send(frames, now) : 0;
+  if (sent > 0) bus_watch_.feed(now);
+  if (!newest_is_new_ || sent == 0) return;
+  newest_is_new_ = false;
+  report_.frame_to_can.add(monotonic_now() - newest_.taken);
+  report_.exposure_to_can.add(now - newest_.estimate.capture_time);
+}
+
+void ServoLoop::write_light(TimePoint now) {
+  if (links_.light == nullptr) return;
+  const std::int64_t half_seconds = to_ns(now) / 500'000'000;
+  const std::int64_t tenths = to_ns(now) / 100'000'000;
+  bool on = false;
+  switch (report_.outputs.light) {
+    case safety::Light::kOff:
+      break;
+    case safety::Light::kOn:
+      on = true;
+      break;
+    case safety::Light::kSlow:
+      on = half_seconds % 2 == 0;
+      break;
+    case safety::Light::kFast:
+      on = tenths % 2 == 0;
+      break;
+  }
+  links_.light->write(on, now);
+}
+
+void ServoLoop::record(TimePoint now, Duration late) {
+  report_.jitter.add(late);
+  report_.filter_rejected = filter_.counters().rejected;
+  if (links_.bus != nullptr) {
+    report_.can = links_.bus->counters();
+    report_.drives_malformed = links_.drives->malformed();
+  }
+  report_.loop.cycles += 1;
+  report_.loop.time = now;
+  links_.report->write(report_);
+  links_.facts->servo_cycles.store(report_.loop.cycles, std::memory_order_relaxed);
+}
+
+void ServoLoop::tell_changes(const safety::Memory& before, TimePoint now) {
+  const safety::Memory& after = report_.supervisor;
+  if (before.state != after.state) {
+    links_.events->raise(
+        make_event(telemetry::kStateChanged, now, static_cast<double>(before.state),
+                   static_cast<double>(after.state), static_cast<double>(after.cause)));
+  }
+  if (report_.outputs.refused != Cause::kNone) {
+    links_.events->raise(
+        make_event(telemetry::kRequestRefused, now, static_cast<double>(report_.outputs.refused)));
+  }
+  // The integral parts of a vehicle that stood still belong to another situation.
+  if (before.state == safety::State::kStandby && after.state != before.state) {
+    links_.vehicle->reset();
+  }
+}
+
+void ServoLoop::tell_devices(TimePoint now) {
+  if (links_.bus == nullptr) {
+    report_.drives = {.all_alive = true};
+    return;
+  }
+  const hal::BusState bus = links_.bus->state();
+  if (bus != report_.bus) {
+    links_.events->raise(make_event(telemetry::kBusChanged, now, static_cast<double>(bus)));
+  }
+  report_.bus = bus;
+  const hal::DriveGroupHealth before = report_.drives;
+  report_.drives = links_.drives->health(now);
+  const hal::DriveGroupHealth& after = report_.drives;
+  if (before.all_alive == after.all_alive && before.any_fault == after.any_fault) return;
+  const EventCode code = after.any_fault   ? telemetry::kDriveFault
+                         : after.all_alive ? telemetry::kDrivesGood
+                                           : telemetry::kDriveSilent;
+  links_.events->raise(make_event(code, now, after.first_bad));
+}
+
+}  // namespace gannet::daemon
