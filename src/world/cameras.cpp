@@ -1,0 +1,94 @@
+#include "src/world/cameras.hpp"
+
+#include <utility>
+
+namespace gannet::world {
+
+Result<std::unique_ptr<Cameras>> Cameras::create(const Config& config, Renderer renderer,
+                                                 Parallel& parallel) {
+  hal::SharedFramesFormat format;
+  format.width = renderer.rig().left.width;
+  format.height = renderer.rig().left.height;
+  auto writer = hal::SharedFramesWriter::create(config.shared_name, format);
+  if (!writer) return writer.error();
+  return std::unique_ptr<Cameras>(
+      new Cameras(config, std::move(*writer), std::move(renderer), parallel));
+}
+
+Cameras::Cameras(const Config& config, hal::SharedFramesWriter writer, Renderer renderer,
+                 Parallel& parallel)
+    : config_(config),
+      writer_(std::move(writer)),
+      renderer_(std::move(renderer)),
+      parallel_(parallel),
+      random_(config.seed ^ 0xca3e7a) {
+  if (config_.in_background) thread_ = std::thread([this] { work(); });
+}
+
+Cameras::~Cameras() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+void Cameras::expose(TimePoint now, double time_s, const Scene& scene,
+                     const Transform<World, LeftCamera>& world_from_left) {
+  while (next_ <= now) next_ += config_.period;
+  ++exposed_;
+  const bool dropped = random_.uniform() < drop_share_;  // asked each time, so that runs compare
+  const std::lock_guard lock(mutex_);
+  if (blind_ || dropped) {
+    ++counters_.withheld;
+    return;
+  }
+  if (has_job_) {
+    ++counters_.lost;
+    return;
+  }
+  job_ = {now, time_s, scene, world_from_left, exposed_};
+  if (config_.in_background) {
+    has_job_ = true;
+    wake_.notify_one();
+  } else {
+    ++(draw(job_) ? counters_.frames : counters_.lost);
+  }
+}
+
+bool Cameras::draw(const Job& job) {
+  const auto images = writer_.begin_frame();
+  if (!images) return false;
+  const Intrinsics& camera = renderer_.rig().left;
+  const hal::SharedFramesFormat format;
+  const auto target = [&](std::span<std::uint8_t> bytes) {
+    return target_of(writer_.layout(), bytes.data(), format.format, camera.width, camera.height,
+                     format.matrix, format.range);
+  };
+  renderer_.render(job.scene, job.world_from_left, job.time_s, job.number, parallel_,
+                   target(images->left), target(images->right));
+  writer_.publish(job.capture, job.capture + config_.latency);
+  return true;
+}
+
+void Cameras::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wake_.wait(lock, [this] { return has_job_ || stop_; });
+    if (stop_) return;
+    lock.unlock();  // job_ is ours while has_job_ stands
+    const bool drawn = draw(job_);
+    lock.lock();
+    ++(drawn ? counters_.frames : counters_.lost);
+    has_job_ = false;
+  }
+}
+
+CameraCounters Cameras::counters() const {
+  const std::lock_guard lock(mutex_);
+  return counters_;
+}
+
+}  // namespace gannet::world

@@ -1,0 +1,147 @@
+// gannet-world: runs a scenario with a real gannetd and says whether all its checks passed.
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "platform/base/command_line.hpp"
+#include "platform/linux/clock.hpp"
+#include "platform/linux/whole_file.hpp"
+#include "src/report/progress.hpp"
+#include "src/world/assets.hpp"
+#include "src/world/daemon_process.hpp"
+#include "src/world/run_record.hpp"
+#include "src/world/scenario.hpp"
+#include "src/world/simulation.hpp"
+
+namespace gannet::world {
+namespace {
+
+Command command() {
+  return {
+      .name = "gannet-world",
+      .summary = "run a scenario in a simulated world with a real gannetd",
+      .description =
+          "Simulates vehicle, water, cameras and motors of a scenario, starts gannetd in it and "
+          "judges what came of it. The daemon hears of the world only by frames, CAN, lines and, "
+          "in stepped time, the step socket.\n\nIn stepped time everything repeats bit for bit "
+          "however busy the machine is; live, the daemon's threads run by the clock.",
+      .options = {{.name = "stepped",
+                   .kind = ArgumentKind::kFlag,
+                   .help = "Stepped time, the default."},
+                  {.name = "live", .kind = ArgumentKind::kFlag, .help = "The machine's own time."},
+                  {.name = "record",
+                   .value = "DIR",
+                   .help = "Write result.json, trace.csv, events.csv and the daemon's log here."},
+                  {.name = "seed",
+                   .kind = ArgumentKind::kInteger,
+                   .value = "N",
+                   .min = 0,
+                   .help = "Of noise and random motion; the scenario's own if absent."},
+                  {.name = "set",
+                   .value = "ROOM.KEY=VALUE",
+                   .repeats = true,
+                   .help = "Handed to gannetd after what the scenario sets."},
+                  {.name = "gannetd",
+                   .value = "PATH",
+                   .help = "The daemon; the one beside this program if absent."},
+                  {.name = "attach",
+                   .value = "DIR",
+                   .help = "Start no daemon: make DIR, write gannetd.toml into it, and wait for "
+                           "'gannetd -c DIR/gannetd.toml'."},
+                  {.name = "assets",
+                   .value = "DIR",
+                   .help = "The photographs; $GANNET_ASSETS or build/assets if absent."}},
+      .positionals = {{.name = "scenario",
+                       .value = "SCENARIO",
+                       .required = true,
+                       .help = "A TOML file, or the name of one that is shipped."}},
+      .example = "gannet-world rov_station_keeping --stepped --record out",
+      .exit_codes =
+          "0  all checks passed\n1  a check failed\n2  bad scenario or option\n"
+          "3  the run broke off",
+      .see_also = "gannetd(8), gannet(1)"};
+}
+
+int fail(int code, const std::string& text) {
+  std::fprintf(stderr, "gannet-world: %s\n", text.c_str());
+  return code;
+}
+
+// The daemon's last words, which mostly tell why a run broke off.
+void show_log(const RunFiles& files) {
+  if (std::FILE* log = std::fopen(files.log().c_str(), "r")) {
+    char line[1024];
+    while (std::fgets(line, sizeof line, log) != nullptr) std::fprintf(stderr, "  | %s", line);
+    std::fclose(log);
+  }
+}
+
+void keep_log(const RunFiles& files, const std::string& folder) {
+  if (auto log = linux_os::read_file(files.log(), 1 << 26))
+    (void)linux_os::write_file(folder + "/gannetd.log", *log);
+}
+
+int run(const Arguments& arguments, const std::string& program) {
+  auto scenario = load_scenario(find_scenario(arguments.text("scenario"), program));
+  if (!scenario) return fail(2, scenario.error().text);
+  if (arguments.given("seed")) scenario->seed = arguments.integer("seed");
+  for (const std::string& setting : arguments.texts("set"))
+    scenario->daemon.settings.push_back(setting);
+
+  SimulationOptions options;
+  options.stepped = !arguments.flag("live");
+  options.assets = arguments.given("assets") ? arguments.text("assets") : assets_folder();
+  options.folder = arguments.text("attach");
+  if (!arguments.given("attach"))
+    options.gannetd =
+        arguments.given("gannetd") ? arguments.text("gannetd") : gannetd_beside(program);
+  else
+    options.patience = std::chrono::minutes(10);
+
+  auto simulation = Simulation::create(*scenario, options);
+  if (!simulation) return fail(3, simulation.error().text);
+  std::printf("%s: %s\n", scenario->name.c_str(), scenario->description.c_str());
+  for (const std::string& note : (*simulation)->notes()) std::printf("  %s\n", note.c_str());
+  if (arguments.given("attach"))
+    std::printf("waiting for: gannetd -c %s\n", (*simulation)->files().config().c_str());
+  std::fflush(stdout);
+
+  constexpr double kThousandths = 1000;
+  report::Progress progress(std::cerr, report::is_terminal(2), scenario->name,
+                            std::lround(scenario->duration_s * kThousandths),
+                            linux_os::monotonic_now());
+  auto result = (*simulation)->run([&](const TraceRow& row) {
+    progress.update(std::lround(row.time_s * kThousandths), linux_os::monotonic_now());
+  });
+  progress.finish(linux_os::monotonic_now());
+  if (arguments.given("record")) {
+    if (result) {
+      const auto written =
+          write_record(arguments.text("record"), *scenario, *result, options.stepped);
+      if (!written) return fail(3, written.error().text);
+    }
+    keep_log((*simulation)->files(), arguments.text("record"));
+  }
+  if (!result) {
+    show_log((*simulation)->files());
+    return fail(3, result.error().text);
+  }
+  std::printf("%s", result_table(*result).c_str());
+  std::printf("%s: %s after %.1f s of simulated and %.1f s of real time\n", scenario->name.c_str(),
+              result->passed() ? "passed" : "FAILED", scenario->duration_s, result->host_s);
+  return result->passed() ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace gannet::world
+
+int main(int argc, char** argv) {
+  using namespace gannet;
+  const std::vector<std::string> args(argv + 1, argv + argc);
+  Arguments arguments;
+  if (const auto code = begin_command(world::command(), args, arguments)) return *code;
+  return world::run(arguments, argv[0]);
+}

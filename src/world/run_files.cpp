@@ -1,0 +1,121 @@
+#include "src/world/run_files.hpp"
+
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <filesystem>
+#include <utility>
+
+#include "platform/linux/fd.hpp"
+#include "platform/linux/whole_file.hpp"
+#include "src/config/printer.hpp"
+#include "src/config/value_text.hpp"
+
+namespace gannet::world {
+namespace {
+
+std::string camera_text(const std::string& name, const Intrinsics& camera) {
+  static const char* const kDistortions[] = {"none", "brown", "fisheye"};
+  static const int kCoefficients[] = {0, 5, 4};
+  const auto kind = static_cast<std::size_t>(camera.distortion);
+  const auto first = camera.coefficients.begin();
+  const std::vector<double> coefficients(first, first + kCoefficients[kind]);
+  return "[" + name + "]\nwidth = " + config::value_text(camera.width) +
+         "\nheight = " + config::value_text(camera.height) +
+         "\nfx = " + config::value_text(camera.fx) + "\nfy = " + config::value_text(camera.fy) +
+         "\ncx = " + config::value_text(camera.cx) + "\ncy = " + config::value_text(camera.cy) +
+         "\ndistortion = \"" + kDistortions[kind] +
+         "\"\ncoefficients = " + config::value_text(coefficients) + "\n\n";
+}
+
+template <class To, class From>
+std::string transform_text(const std::string& name, const Transform<To, From>& transform) {
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> r = transform.rotation.toRotationMatrix();
+  const Eigen::Vector3d& t = transform.translation;
+  return "[" + name +
+         "]\nrotation = " + config::value_text(std::vector<double>(r.data(), r.data() + 9)) +
+         "\ntranslation_m = " + config::value_text(std::vector<double>{t.x(), t.y(), t.z()}) +
+         "\n\n";
+}
+
+// What a person would enter for this vehicle: the published figures of body and thrusters.
+vehicle::RovConfig rov_config(const RovPlantConfig& plant) {
+  vehicle::RovConfig rov;
+  rov.frame = plant.thrusters.empty() ? "vectored_6dof" : "custom";
+  for (const ThrusterPlace& place : plant.thrusters)
+    rov.thrusters.push_back({place.position_m, place.direction, rov.curve});
+  rov.mass_kg = plant.mass_kg;
+  rov.inertia_kg_m2 = plant.inertia_kg_m2;
+  rov.added_mass = plant.added_mass;
+  rov.linear_drag = plant.linear_drag;
+  rov.quadratic_drag = plant.quadratic_drag;
+  rov.net_buoyancy_n = (plant.water_density_kg_m3 * plant.volume_m3 - plant.mass_kg) * 9.81;
+  rov.thruster_lag_s = kThrusterLag_s;
+  return rov;
+}
+
+}  // namespace
+
+Result<RunFiles> RunFiles::create(const std::string& folder) {
+  if (!folder.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) return Error{folder + ": " + error.message()};
+    return RunFiles(std::filesystem::absolute(folder).string(), false);
+  }
+  std::error_code error;
+  std::string name = std::filesystem::temp_directory_path(error).string() + "/gannet-world-XXXXXX";
+  if (mkdtemp(name.data()) == nullptr) return linux_os::system_error(name, errno);
+  return RunFiles(name, true);
+}
+
+RunFiles::RunFiles(RunFiles&& other) noexcept
+    : folder_(std::move(other.folder_)), temporary_(std::exchange(other.temporary_, false)) {}
+
+RunFiles::~RunFiles() {
+  std::error_code ignored;
+  if (temporary_) std::filesystem::remove_all(folder_, ignored);
+}
+
+std::string rig_text(const StereoRig& rig) {
+  std::string text = camera_text("left", rig.left) + camera_text("right", rig.right) +
+                     transform_text("right_from_left", rig.right_from_left) +
+                     transform_text("hand_from_left", rig.hand_from_left);
+  if (rig.body_from_hand) text += transform_text("body_from_hand", *rig.body_from_hand);
+  return text;
+}
+
+config::DaemonConfig daemon_config(const Scenario& scenario, const RunFiles& files,
+                                   const std::vector<std::string>& models, bool stepped) {
+  config::DaemonConfig c;
+  c.rig = files.rig();
+  c.models = models;
+  c.realtime.servo_rate_hz = scenario.daemon.servo_hz;
+  c.realtime.lock_memory = !stepped;
+  c.clock.kind = stepped ? "stepped" : "live";
+  c.clock.step_socket = files.step();
+  c.camera.kind = "simulated";
+  c.camera.simulated.name = files.frames();
+  c.can.kind = "local";
+  c.can.path = files.bus();
+  c.control.socket = files.control();
+  c.vehicle.kind = scenario.vehicle.kind;
+  if (scenario.vehicle.kind == "rov") {
+    c.vehicle.rov = rov_config(scenario.vehicle.plant);
+    const std::size_t thrusters = RovPlant(scenario.vehicle.plant).thrusters().size();
+    for (int i = 0; i < static_cast<int>(thrusters); ++i)
+      c.drive.motors.push_back({.index = i, .node_id = 20 + i});
+  }
+  return c;
+}
+
+Result<void> write_files(const Scenario& scenario, const RunFiles& files,
+                         const config::DaemonConfig& config) {
+  const auto rig = linux_os::write_file(files.rig(), rig_text(scenario.rig()));
+  if (!rig) return rig.error();
+  return linux_os::write_file(files.config(), config::commented_file(config));
+}
+
+}  // namespace gannet::world

@@ -1,0 +1,19 @@
+// RunRecord: what is left of a run: the table that people read, result.json, trace.csv and
+// events.csv. Start-up and end of a run.
+#pragma once
+
+#include <string>
+
+#include "platform/base/result.hpp"
+#include "src/world/simulation.hpp"
+
+namespace gannet::world {
+
+std::string result_table(const RunResult& result);
+control::Json result_json(const Scenario& scenario, const RunResult& result, bool stepped);
+
+// Into a folder that is made.
+Result<void> write_record(const std::string& folder, const Scenario& scenario,
+                          const RunResult& result, bool stepped);
+
+}  // namespace gannet::world
