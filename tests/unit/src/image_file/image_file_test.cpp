@@ -1,25 +1,17 @@
 #include "src/image_file/image_file.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
 
 #include "platform/linux/whole_file.hpp"
-#include "src/image_file/png.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace gannet::image_file {
 namespace {
 
-namespace fs = std::filesystem;
-
 class ImageFile : public ::testing::Test {
  protected:
-  ImageFile() { fs::create_directories(folder_); }
-  ~ImageFile() override { fs::remove_all(folder_); }
-  std::string path(const char* name) const { return (folder_ / name).string(); }
-  const fs::path folder_ =
-      fs::path(::testing::TempDir()) / ("image_file_" + std::to_string(getpid()));
+  std::string path(const char* name) const { return folder_ / name; }
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(ImageFile, is_read_by_its_content_and_not_by_its_name) {
@@ -48,14 +40,24 @@ TEST_F(ImageFile, errors_name_the_file) {
 }
 
 TEST_F(ImageFile, a_mask_is_the_alpha_where_there_is_one_and_the_brightness_otherwise) {
+  const auto values = [&](const char* name) {
+    const auto mask = read_mask(path(name));
+    return std::vector<int>(mask->samples.begin(), mask->samples.end());
+  };
   Raster8 rgba(2, 1, 4);
   rgba.samples = {255, 255, 255, 0, 0, 0, 0, 255};
   ASSERT_TRUE(write_png(path("alpha.png"), rgba));
-  EXPECT_EQ(read_mask(path("alpha.png"))->samples, (std::vector<std::uint8_t>{0, 255}));
+  EXPECT_EQ(values("alpha.png"), (std::vector{0, 255}));
   Raster8 grey(2, 1, 1);
   grey.samples = {0, 1};
   ASSERT_TRUE(write_png(path("grey.png"), grey));
-  EXPECT_EQ(read_mask(path("grey.png"))->samples, (std::vector<std::uint8_t>{0, 1}));
+  EXPECT_EQ(values("grey.png"), (std::vector{0, 1}));
+  hal::Image rough(2, 1, hal::PixelFormat::kYuv444);
+  for (std::uint8_t& byte : rough.bytes()) byte = 128;
+  rough.row(0, 0)[0] = 3;
+  rough.row(0, 0)[1] = 250;
+  ASSERT_TRUE(write_jpeg(path("rough.jpg"), rough.view(), 95));
+  EXPECT_EQ(values("rough.jpg"), (std::vector{0, 255}));
 }
 
 }  // namespace
