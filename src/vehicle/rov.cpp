@@ -70,6 +70,7 @@ Rov::Rov(const RovConfig& c, const Allocation& allocation, const Allocation::Axe
   plant_.steady = stacked({0, 0, c.net_buoyancy_n}, Eigen::Vector3d::Zero());
   plant_.lag_s = c.thruster_lag_s;
   gains_.slew_n_s = c.slew_n_s;
+  gains_.smoothing_s = c.acceleration_smoothing_s;
   thrusts_.setZero(allocation_.size());
 }
 
@@ -81,6 +82,17 @@ Vector6d Rov::error_of(const MotionWish& wish, const Vector6d& velocity) const {
   const Vector6d own =
       wish.measured_valid ? stacked(wish.measured.linear, wish.measured.angular) : model_velocity_;
   return (velocity - own).cwiseProduct(controlled_);
+}
+
+// The wish's derivative by a first-order filter: the wish jumps a little with every image. A hold
+// stops at once and has none.
+Vector6d Rov::acceleration(const Vector6d& velocity, Permit permit, double seconds) {
+  if (permit != Permit::kFull || gains_.smoothing_s <= 0) {
+    smooth_ = velocity;
+    return Vector6d::Zero();
+  }
+  smooth_ += std::min(seconds / gains_.smoothing_s, 1.0) * (velocity - smooth_);
+  return (velocity - smooth_) / gains_.smoothing_s;
 }
 
 // All thrusts go the same share of their way, so that what is reached lies on the way from the old
@@ -119,6 +131,7 @@ void Rov::stop(std::span<hal::DriveSetpoint> setpoints, double seconds) {
   for (auto& setpoint : setpoints) setpoint.value = 0;
   thrusts_.setZero();
   integral_.setZero();
+  smooth_.setZero();
   // A vehicle without thrust drifts as it likes; nothing is claimed of its buoyancy then.
   advance_model(-plant_.steady.cwiseProduct(controlled_), seconds);
 }
@@ -134,7 +147,8 @@ Reach Rov::update(const MotionWish& wish, Permit permit, Duration dt,
   Vector6d velocity = Vector6d::Zero();
   if (permit == Permit::kFull) velocity = stacked(wish.velocity.linear, wish.velocity.angular);
   const Vector6d error = error_of(wish, velocity);
-  const Vector6d push = plant_.mass.cwiseProduct(gains_.proportional).cwiseProduct(error);
+  const Vector6d push = plant_.mass.cwiseProduct(gains_.proportional.cwiseProduct(error) +
+                                                 acceleration(velocity, permit, seconds));
   Vector6d wished = push + integral_ + drag(velocity) - plant_.steady;
   wished = wished.cwiseProduct(controlled_);
   if (!wished.allFinite()) {
@@ -163,6 +177,7 @@ Twist<Body> Rov::own_velocity() const {
 
 void Rov::reset() {
   integral_.setZero();
+  smooth_.setZero();
   model_wrench_.setZero();
   model_velocity_.setZero();
 }

@@ -1,11 +1,11 @@
-// Rov: an underwater vehicle with thrusters. A velocity loop (PI with drag feed-forward, gains in
-// 1/s times mass with added mass) wishes a wrench; Allocation makes thrusts of it; the slew limit
-// moves all thrusts together; the curves make commands. The integral grows on an axis only while
-// the motors reach what is wished there, so it does not wind up.
-// Without a measured velocity the model's own one stands in, and the integral rests.
-// The model of its own motion: M·v̇ = τ − D₁·v − D₂·|v|·v per controlled axis, with first-order
-// thruster lag; Coriolis and restoring forces are left to the pose filter, which sees their effect.
-// Servo thread; RT safe after creation.
+// Rov: an underwater vehicle with thrusters. A velocity loop (PI with feed-forward of drag and of
+// the wish's smoothed acceleration, gains in 1/s times mass with added mass) wishes a wrench;
+// Allocation makes thrusts of it; the slew limit moves all thrusts together; the curves make
+// commands. The integral grows on an axis only while the motors reach what is wished there, so it
+// does not wind up. Without a measured velocity the model's own one stands in, and the integral
+// rests. The model of its own motion: M·v̇ = τ − D₁·v − D₂·|v|·v per controlled axis, with
+// first-order thruster lag; Coriolis and restoring forces are left to the pose filter, which sees
+// their effect. Servo thread; RT safe after creation.
 #pragma once
 
 #include <vector>
@@ -33,12 +33,14 @@ class Rov final : public Vehicle {
   struct Gains {
     Vector6d proportional, integral;  // 1/s, 1/s²
     double slew_n_s = 0;
+    double smoothing_s = 0;
   };
   Rov(const RovConfig& config, const Allocation& allocation, const Allocation::Axes& controlled,
       std::vector<CurveConfig> curves);
 
   Vector6d drag(const Vector6d& velocity) const;
   Vector6d error_of(const MotionWish& wish, const Vector6d& velocity) const;
+  Vector6d acceleration(const Vector6d& velocity, Permit permit, double seconds);
   void slew(const Allocation::Thrusts& wanted, double seconds);
   void integrate(const Vector6d& error, const Vector6d& undone, double seconds);
   void advance_model(const Vector6d& wrench, double seconds);
@@ -51,6 +53,7 @@ class Rov final : public Vehicle {
   std::vector<CurveConfig> curves_;
   Allocation::Thrusts thrusts_;
   Vector6d integral_ = Vector6d::Zero();  // N, N·m
+  Vector6d smooth_ = Vector6d::Zero();    // the wish, low-passed
   Vector6d model_wrench_ = Vector6d::Zero();
   Vector6d model_velocity_ = Vector6d::Zero();
 };

@@ -78,6 +78,12 @@ void describe_loop(Visitor& v, RovConfig& c) {
            .help = "Wished angular acceleration for each rad/s of error."});
   v.field("rate_integral", c.rate_integral,
           {.min = 0, .max = 100, .unit = "1/s²", .help = "The same for its integral."});
+  v.field("acceleration_smoothing_s", c.acceleration_smoothing_s,
+          {.min = 0,
+           .max = 10,
+           .unit = "s",
+           .help = "Smoothing of the wished velocity's derivative, whose force is fed forward; 0 "
+                   "feeds none."});
   v.field(
       "slew_n_s", c.slew_n_s,
       {.min = 0.1, .max = 1e6, .unit = "N/s", .help = "Fastest change of one thruster's thrust."});

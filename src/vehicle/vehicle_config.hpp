@@ -41,13 +41,14 @@ struct RovConfig {
   std::vector<double> added_mass = {5.5, 12.7, 14.57, 0.12, 0.12, 0.12};
   std::vector<double> linear_drag = {4.03, 6.22, 5.18, 0.07, 0.07, 0.07};
   std::vector<double> quadratic_drag = {18.18, 21.66, 36.99, 1.55, 1.55, 1.55};
-  double net_buoyancy_n = 0;       // upward
-  double thruster_lag_s = 0.08;    // from command to thrust, first order
-  double velocity_gain = 3;        // 1/s, times mass: N per m/s
-  double velocity_integral = 1.5;  // 1/s²
-  double rate_gain = 4;            // 1/s
-  double rate_integral = 2;        // 1/s²
-  double slew_n_s = 200;           // largest change of one thruster's thrust
+  double net_buoyancy_n = 0;              // upward
+  double thruster_lag_s = 0.08;           // from command to thrust, first order
+  double velocity_gain = 4;               // 1/s, times mass: N per m/s
+  double velocity_integral = 1.5;         // 1/s²
+  double rate_gain = 5;                   // 1/s
+  double rate_integral = 2;               // 1/s²
+  double acceleration_smoothing_s = 0.4;  // of the acceleration feed-forward; 0: none
+  double slew_n_s = 200;                  // largest change of one thruster's thrust
 };
 
 struct VehicleConfig {

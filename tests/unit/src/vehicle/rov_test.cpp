@@ -147,6 +147,7 @@ TEST(Rov, slews_all_thrusters_together) {
 // grow by mass · gain · error · time.
 TEST(Rov, does_not_wind_up_while_saturated) {
   RovConfig config;
+  config.acceleration_smoothing_s = 0;
   config.slew_n_s = 1e6;
   const auto sut = rov(config);
   Setpoints setpoints;
