@@ -7,8 +7,12 @@
 namespace gannet::world {
 namespace {
 
-constexpr int kRun = 16;             // pixels between two nodes
-constexpr float kMostProbes = 8;     // along the footprint's long side
+constexpr int kRun = 16;  // pixels between two nodes
+// Looks along a footprint's long side; what is longer is blurred. A slanted bottom fills the
+// picture, so it gets a single look two thirds as wide; the target, whose pose is measured, up
+// to 4.
+constexpr float kProbesOfTile = 1.5f;
+constexpr float kProbesOfPicture = 4;
 constexpr float kNearest_m = 0.02f;  // nothing nearer is drawn
 
 // Within 2e-4: mantissa by a polynomial, no libm, so the same everywhere. x > 0.
@@ -124,9 +128,9 @@ Surface::Footprint Surface::footprint(const RayTable& rays, int column, int row)
   const float middle = 0.5f * (a + d);
   const float spread = std::sqrt(0.25f * (a - d) * (a - d) + b * b);
   const float longest = std::sqrt(middle + spread);
-  const float shortest =
-      std::max(std::sqrt(std::max(middle - spread, 0.0f)), longest / kMostProbes);
-  const float probes = std::clamp(longest / std::max(shortest, 1.0f), 1.0f, kMostProbes);
+  const float most = tiled_ ? kProbesOfTile : kProbesOfPicture;
+  const float shortest = std::max(std::sqrt(std::max(middle - spread, 0.0f)), longest / most);
+  const float probes = std::clamp(longest / std::max(shortest, 1.0f), 1.0f, most);
   // Eigenvector of the long axis, the better conditioned of the two ways to write it.
   const float ex = a >= d ? middle + spread - d : b;
   const float ey = a >= d ? b : middle + spread - a;
@@ -148,8 +152,8 @@ inline Float4 Surface::look(Float4 place, float level) const {
 
 inline Float4 Surface::filtered(float u, float v, Float4 filter) const {
   const Float4 place = {u, v, u, v};
-  if (filter[1] < 1.25f) return look(place, filter[0]);
-  const int probes = static_cast<int>(filter[1] + 0.75f);
+  if (filter[1] < 1.6f) return look(place, filter[0]);
+  const int probes = static_cast<int>(filter[1] + 0.4f);
   const Float4 axis = {filter[2], filter[3], filter[2], filter[3]};
   Float4 sum = splat(0);
   for (int i = 0; i < probes; ++i) {
