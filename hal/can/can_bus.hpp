@@ -21,7 +21,7 @@ enum class BusState : std::uint8_t { kGood, kWarning, kPassive, kOff, kDown };
 struct CanCounters {
   std::uint64_t sent = 0;
   std::uint64_t received = 0;
-  std::uint64_t send_refused = 0;    // no room, or the bus is down
+  std::uint64_t send_refused = 0;     // no room, or the bus is down
   std::uint64_t receive_dropped = 0;  // lost before we read them
   std::uint64_t malformed = 0;
 };

@@ -13,9 +13,9 @@
 namespace gannet::hal {
 
 struct DriveGroupHealth {
-  bool all_alive = false;   // each drive was heard within its feedback time-out
+  bool all_alive = false;  // each drive was heard within its feedback time-out
   bool any_fault = false;
-  int first_bad = -1;       // motor index of the first one not alive or in fault; −1: none
+  int first_bad = -1;  // motor index of the first one not alive or in fault; −1: none
 };
 
 class DriveGroup {

@@ -17,8 +17,8 @@ struct DriveSetpoint {
 
 struct DriveFeedback {
   DriveState state = DriveState::kUnknown;
-  TimePoint time = {};        // of the last feedback; the epoch when there was none
-  double speed_rad_s = 0;     // of the shaft, by the vehicle's sign
+  TimePoint time = {};     // of the last feedback; the epoch when there was none
+  double speed_rad_s = 0;  // of the shaft, by the vehicle's sign
   double current_a = 0;
   double voltage_v = 0;
   double temperature_k = 0;

@@ -1,13 +1,9 @@
 #include "hal/can/local_bus.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include <cstdlib>
-#include <filesystem>
 
 #include "hal/can/can_wire.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace gannet::hal {
 namespace {
@@ -21,14 +17,6 @@ CanFrame numbered(std::uint32_t id) {
 
 class LocalBusTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = testing::TempDir() + "gannet_can_XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    path_ = folder_ + "/can0";
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::unique_ptr<LocalCanHub> listen() { return std::move(LocalCanHub::listen(path_)).value(); }
   std::unique_ptr<LocalBus> connect(std::vector<CanFilter> filters = {}) {
     return std::move(LocalBus::connect(path_, at_ms(0), std::move(filters))).value();
@@ -38,7 +26,8 @@ class LocalBusTest : public testing::Test {
     return bus.send({&frame, 1}, now);
   }
 
-  std::string folder_, path_;
+  const test::TemporaryFolder folder_;
+  const std::string path_ = folder_ / "can0";
   ReceivedCanFrame in_[16];
 };
 

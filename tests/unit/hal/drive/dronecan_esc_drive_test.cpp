@@ -83,8 +83,8 @@ TEST_F(DroneCanEscDriveTest, FirstCycleAsCandumpShowsIt) {
   make(with_motors(6));
   EXPECT_EQ(texts_of(send({1, -1, 0.5, 0, 0, 0}, true, at_ms(0))),
             (Texts{"0804060A#1C2FFF7C06000480", "0804060A#00000000000060",  // RawCommand
-                   "10044C0A#FFC0",                                       // armed
-                   "1001550A#00000000000000C0"}));                        // heartbeat
+                   "10044C0A#FFC0",                                         // armed
+                   "1001550A#00000000000000C0"}));                          // heartbeat
 }
 
 TEST_F(DroneCanEscDriveTest, CommandsEveryMotorInOneTransfer) {
@@ -129,20 +129,6 @@ TEST_F(DroneCanEscDriveTest, CentredPwmStopsInTheMiddleAlsoOnUnusedIndices) {
   make(config);
   EXPECT_EQ(commands({1, -1}, false, at_ms(0)), (std::vector<int>{4096, 4096, 4096}));
   EXPECT_EQ(commands({1, -1}, true, at_ms(1)), (std::vector<int>{8191, 4096, 1}));
-}
-
-TEST(EscRange, CommandAndFractionAreInverse) {
-  for (const char* name : {"reversible", "forward_only", "pwm_centred"}) {
-    const EscRange range = *esc_range(name);
-    for (double fraction = -1; fraction <= 1; fraction += 0.125) {
-      const bool can = fraction >= 0 || range.reverse != range.stop;
-      EXPECT_NEAR(fraction_of(range, command_of(range, fraction)), can ? fraction : 0, 2e-4);
-    }
-    EXPECT_EQ(fraction_of(range, 8191), 1);
-    EXPECT_EQ(fraction_of(range, range.stop), 0);
-  }
-  EXPECT_EQ(fraction_of(*esc_range("reversible"), -8192), -1);
-  EXPECT_FALSE(esc_range("sideways"));
 }
 
 TEST_F(DroneCanEscDriveTest, ALongerCommandPeriodDoesNotDelayAStop) {
@@ -391,31 +377,6 @@ TEST_F(DroneCanEscDriveTest, SurvivesRandomAndMutatedFrames) {
     EXPECT_EQ(found[0].commands[2], -8191);
   }
   EXPECT_GT(sut_->malformed(), 100u);
-}
-
-TEST(DriveKinds, RefusesAConfigThatDoesNotFitTogether) {
-  const auto refused = [](auto&& change, const char* why) {
-    DriveConfig config = with_motors(2);
-    change(config);
-    const auto made = make_drive_group(config);
-    ASSERT_FALSE(made) << why;
-    EXPECT_NE(made.error().text.find(why), std::string::npos) << made.error().text;
-  };
-  refused([](DriveConfig& c) { c.kind = "steam"; }, "dronecan_esc");
-  refused([](DriveConfig& c) { c.motors.clear(); }, "no motor");
-  refused([](DriveConfig& c) { c.motors[1].index = 0; }, "also that of motor 1");
-  refused([](DriveConfig& c) { c.motors[1].index = 20; }, "0 to 19");
-  refused([](DriveConfig& c) { c.motors[1].node_id = 10; }, "own_node_id");
-  refused([](DriveConfig& c) { c.motors[1].node_id = 128; }, "1 to 127");
-  refused([](DriveConfig& c) { c.own_node_id = 0; }, "1 to 127");
-  refused([](DriveConfig& c) { c.range = "sideways"; }, "sideways");
-  refused([](DriveConfig& c) { c.motors[0].pole_pairs = 0; }, "pole_pairs");
-}
-
-TEST(DriveKinds, MakesTheKindWithItsMotors) {
-  const auto group = make_drive_group(with_motors(6));
-  ASSERT_TRUE(group);
-  EXPECT_EQ((*group)->size(), 6);
 }
 
 }  // namespace

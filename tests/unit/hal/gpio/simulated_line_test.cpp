@@ -1,14 +1,11 @@
 #include "hal/gpio/simulated_line.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <optional>
 
-#include "hal/gpio/line_kinds.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace gannet::hal {
 namespace {
@@ -17,28 +14,16 @@ constexpr TimePoint at_ms(std::int64_t ms) { return TimePoint(std::chrono::milli
 
 class SimulatedLineTest : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = testing::TempDir() + "gannet_lines_XXXXXX";
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    path_ = folder_ + "/lines";
-  }
-  void TearDown() override {
-    world_.reset();
-    std::filesystem::remove_all(folder_);
-  }
   void start_world() {
     world_.reset();
     auto made = SimulatedLines::create(path_, {"estop", "release", "light"});
     ASSERT_TRUE(made) << made.error().text;
     world_.emplace(std::move(*made));
   }
-  LineConfig config(const char* line, bool active_low = false) const {
-    return {.kind = "simulated", .path = path_, .name = line, .active_low = active_low};
-  }
   static Level level(DigitalInput& input, std::int64_t ms) { return input.read(at_ms(ms)).level; }
 
-  std::string folder_, path_;
+  const test::TemporaryFolder folder_;
+  const std::string path_ = folder_ / "lines";
   std::optional<SimulatedLines> world_;
 };
 
@@ -169,42 +154,10 @@ TEST_F(SimulatedLineTest, NamesAreCheckedWhenCreated) {
   EXPECT_FALSE(SimulatedLines::create(path_, {""}));
   EXPECT_FALSE(SimulatedLines::create(path_, {std::string(40, 'x')}));
   EXPECT_FALSE(SimulatedLines::create(path_, {"a", "b", "a"}));
-  EXPECT_FALSE(SimulatedLines::create(folder_ + "/nowhere/lines", {"a"}));
+  EXPECT_FALSE(SimulatedLines::create(folder_ / "nowhere/lines", {"a"}));
   start_world();
   EXPECT_EQ(world_->find("light"), 2);
   EXPECT_EQ(world_->find("lights"), -1);
-}
-
-TEST_F(SimulatedLineTest, ActiveLowTurnsLevelsAndEdgesRound) {
-  start_world();
-  world_->write(0, Level::kHigh, at_ms(0));
-  auto input = std::move(*make_input(config("estop", true)));
-  EXPECT_EQ(level(*input, 1), Level::kLow);
-  world_->write(0, Level::kLow, at_ms(2));
-  const auto reading = input->read(at_ms(3));
-  EXPECT_EQ(reading.level, Level::kHigh);
-  EXPECT_TRUE(reading.rose);
-  EXPECT_FALSE(reading.fell);
-  world_->write(0, Level::kUnknown, at_ms(4));
-  EXPECT_EQ(level(*input, 5), Level::kUnknown);
-  auto output = std::move(*make_output(config("light", true)));
-  EXPECT_TRUE(output->write(true, at_ms(6)));
-  EXPECT_EQ(world_->read(2), Level::kLow);
-}
-
-TEST_F(SimulatedLineTest, ALineThatIsNotFittedIsInactive) {
-  auto input = std::move(*make_input({}));
-  EXPECT_EQ(level(*input, 0), Level::kLow);
-  auto output = std::move(*make_output({}));
-  EXPECT_TRUE(output->write(true, at_ms(0)));
-}
-
-TEST_F(SimulatedLineTest, KindsThatAreWrongAreRefused) {
-  const auto unknown = make_input({.kind = "semaphore", .path = "a", .name = "b"});
-  ASSERT_FALSE(unknown);
-  EXPECT_NE(unknown.error().text.find("none, simulated"), std::string::npos);
-  EXPECT_FALSE(make_output({.kind = "simulated", .path = "", .name = "b"}));
-  EXPECT_FALSE(make_output({.kind = "simulated", .path = "a", .name = ""}));
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST_F(EscNodesTest, ThePlantsValuesComeBackAsFeedback) {
 
 TEST_F(EscNodesTest, HeartbeatOnceASecondAndStatusAtItsRate) {
   make(with_motors(1), {.status_hz = 20});
-  run(2000, {0});                        // 10 s
+  run(2000, {0});                                // 10 s
   constexpr int kNodeInfo = frames_of(41 + 20);  // with a name of 20 letters
   EXPECT_EQ(frames_, 10 + 200 * frames_of(14) + kNodeInfo);
 }
