@@ -1,14 +1,28 @@
 #include "src/vision/hypothesis.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gannet::vision {
 namespace {
 
+// Radius that the table must reach: a little more than the image's corners see, as far as the
+// distortion is one-to-one. A lens that sees wide would otherwise spend the table on nothing.
+double table_radius(const Intrinsics& camera) {
+  double radius = 0;
+  for (const double x : {0.0, (camera.width - 1) / 2.0, camera.width - 1.0}) {
+    for (const double y : {0.0, (camera.height - 1) / 2.0, camera.height - 1.0}) {
+      const Eigen::Vector3d ray = camera.ray({x, y});
+      if (ray.allFinite()) radius = std::max(radius, ray.head<2>().norm() / ray.z());
+    }
+  }
+  return std::min(1.05 * radius, camera.valid_radius());
+}
+
 // Radial factor (distorted radius over undistorted) and the range in which it is one-to-one.
 LensTable make_lens(const Intrinsics& camera) {
   LensTable lens = {};
-  const double radius = camera.valid_radius();
+  const double radius = table_radius(camera);
   lens.r2_max = static_cast<float>(radius * radius);
   lens.scale = static_cast<float>(LensTable::kSteps / (radius * radius));
   Intrinsics radial = camera;

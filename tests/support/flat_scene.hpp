@@ -1,0 +1,158 @@
+// FlatScene: a smooth procedural texture on a plane in front of a smooth procedural background, seen
+// by a stereo rig: pictures with exactly known truth and no files, for the unit tests of vision and
+// track. Not the world's renderer: no light, no water, one ray a pixel of a band-limited texture.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "platform/base/random.hpp"
+#include "src/core/stereo_rig.hpp"
+#include "src/vision/patch_model.hpp"
+
+namespace gannet::test {
+
+struct Picture {
+  int width, height;
+  std::vector<std::uint8_t> y, u, v;
+  hal::ImageView view() const {
+    hal::ImageView out;
+    out.width = width;
+    out.height = height;
+    out.format = hal::PixelFormat::kYuv444;
+    out.range = hal::ColourRange::kFull;
+    out.plane = {y.data(), u.data(), v.data()};
+    out.stride = {width, width, width};
+    return out;
+  }
+};
+
+// Sums of sines: smooth, so that point samples are exact, and unlike anywhere else.
+class Texture {
+ public:
+  Texture(std::uint64_t seed, double wavelength_m, double contrast) : contrast_(contrast) {
+    Random random(seed);
+    for (Wave& w : waves_) {
+      const double angle = 6.2832 * random.uniform();
+      const double k = 6.2832 / wavelength_m * (0.4 + 1.2 * random.uniform());
+      w = {k * std::cos(angle), k * std::sin(angle), 6.2832 * random.uniform()};
+    }
+  }
+  double at(int channel, double x, double y) const {
+    double sum = 0;
+    for (int i = 0; i < 4; ++i) {
+      const Wave& w = waves_[4 * channel + i];
+      sum += std::sin(w.kx * x + w.ky * y + w.phase);
+    }
+    return contrast_ * sum / 2;
+  }
+
+ private:
+  struct Wave {
+    double kx, ky, phase;
+  };
+  Wave waves_[12];
+  double contrast_;
+};
+
+struct FlatScene {
+  StereoRig rig;
+  Eigen::Vector2d size_m = {0.16, 0.11};
+  Texture target{11, 0.05, 35};
+  Texture ground{12, 0.11, 12};
+  double ground_z = 1.4;
+  double noise = 1.0;  // grey levels
+
+  FlatScene() {
+    for (Intrinsics* camera : {&rig.left, &rig.right}) {
+      camera->width = 320;
+      camera->height = 240;
+      camera->fx = camera->fy = 320;
+      camera->cx = 159.5;
+      camera->cy = 119.5;
+    }
+    rig.right_from_left.translation = {-0.12, 0, 0};
+    rig.hand_from_left.translation = {-0.06, 0, 0};
+  }
+
+  // An ellipse, so that it has no symmetric outline under quarter turns.
+  bool covers(double x, double y) const {
+    const double a = 2 * x / size_m.x(), b = 2 * y / size_m.y();
+    return a * a + b * b <= 1;
+  }
+
+  Picture see(bool left, const Transform<LeftCamera, Target>* pose, std::uint64_t seed) const {
+    const Intrinsics& camera = left ? rig.left : rig.right;
+    const auto left_from_eye = rig.right_from_left.inverse();
+    Picture out = {camera.width, camera.height, {}, {}, {}};
+    Random random(seed);
+    for (int row = 0; row < camera.height; ++row) {
+      for (int col = 0; col < camera.width; ++col) {
+        Eigen::Vector3d ray = camera.ray({col, row});
+        Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+        if (!left) {
+          ray = left_from_eye.rotation * ray;
+          origin = left_from_eye.translation;
+        }
+        double colour[3];
+        shade(origin, ray, pose, colour);
+        for (double& c : colour) c += noise * static_cast<double>(random.normal_f());
+        const auto byte = [](double c) {
+          return static_cast<std::uint8_t>(std::clamp(std::lround(c), 0L, 255L));
+        };
+        out.y.push_back(byte(colour[0]));
+        out.u.push_back(byte(colour[1]));
+        out.v.push_back(byte(colour[2]));
+      }
+    }
+    return out;
+  }
+
+  // The photo-model as a user would make it: a photo at 0.4 m and one of the background.
+  Result<vision::PatchModel> model(int points = 500) const {
+    const Transform<LeftCamera, Target> square = {Eigen::Quaterniond::Identity(), {0, 0, 0.4}};
+    const Picture photo = see(true, &square, 101);
+    const Picture empty = see(true, nullptr, 102);
+    const hal::ImageView background = empty.view();
+    vision::PhotoInput input;
+    input.target = photo.view();
+    input.background = &background;
+    input.name = "ellipse";
+    auto patch = vision::cut_out(input, rig.left);
+    if (!patch) return patch.error();
+    vision::BuildOptions options;
+    options.inside_points = points;
+    return vision::make_patch_model(*patch, options);
+  }
+
+ private:
+  void shade(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray,
+             const Transform<LeftCamera, Target>* pose, double* colour) const {
+    if (pose != nullptr) {
+      const auto target_from_left = pose->inverse();
+      const Eigen::Vector3d o = target_from_left(origin);
+      const Eigen::Vector3d d = target_from_left.rotation * ray;
+      const Eigen::Vector3d hit = o - d * (o.z() / d.z());
+      if (o.z() / d.z() < 0 && covers(hit.x(), hit.y())) {
+        colour[0] = 120 + target.at(0, hit.x(), hit.y());
+        colour[1] = 100 + 0.6 * target.at(1, hit.x(), hit.y());
+        colour[2] = 175 + 0.6 * target.at(2, hit.x(), hit.y());
+        return;
+      }
+    }
+    const Eigen::Vector3d hit = origin + ray * ((ground_z - origin.z()) / ray.z());
+    colour[0] = 90 + ground.at(0, hit.x(), hit.y());
+    colour[1] = 150 + 0.3 * ground.at(1, hit.x(), hit.y());
+    colour[2] = 105 + 0.3 * ground.at(2, hit.x(), hit.y());
+  }
+};
+
+inline Transform<LeftCamera, Target> pose_at(double x, double y, double z, double rx_deg = 0,
+                                             double ry_deg = 0, double rz_deg = 0) {
+  constexpr double kDegree = 3.14159265358979 / 180;
+  return {quaternion_from_rpy(rx_deg * kDegree, ry_deg * kDegree, rz_deg * kDegree), {x, y, z}};
+}
+
+}  // namespace gannet::test

@@ -1,0 +1,120 @@
+#include "src/track/target_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include "src/track/track_config.hpp"
+#include "src/track/track_state.hpp"
+#include "tests/support/flat_scene.hpp"
+
+namespace gannet::track {
+namespace {
+
+using std::chrono::milliseconds;
+using test::pose_at;
+
+class Tracking : public testing::Test {
+ protected:
+  Tracking() {
+    config.evaluations = 4000;
+    config.evaluations_tracking = 800;
+    auto made = TargetTracker::create(config, scene.rig, {scene.model(400).value()});
+    EXPECT_TRUE(made) << made.error().text;
+    sut = std::move(*made);
+  }
+  PoseEstimate see(const Transform<LeftCamera, Target>* pose) {
+    ++number;
+    now += milliseconds(33);
+    const test::Picture left = scene.see(true, pose, 2 * number);
+    const test::Picture right = scene.see(false, pose, 2 * number + 1);
+    return sut->process(left.view(), right.view(), now, number, {}, serial);
+  }
+  test::FlatScene scene;
+  TrackConfig config;
+  std::unique_ptr<TargetTracker> sut;
+  Serial serial;
+  TimePoint now = time_from_ns(1'000'000'000);
+  std::uint64_t number = 0;
+};
+
+TEST_F(Tracking, without_a_target_it_answers_no_target) {
+  const auto pose = pose_at(0.05, 0, 0.6);
+  const PoseEstimate got = see(&pose);
+  EXPECT_FALSE(got.found);
+  EXPECT_EQ(got.reason, TrackReason::kNoTarget);
+  EXPECT_EQ(got.target_id, 0u);
+}
+
+TEST_F(Tracking, locks_follows_coasts_loses_and_finds_again) {
+  ASSERT_TRUE(sut->choose_model(0, 7));
+  auto pose = pose_at(0.05, 0, 0.6, 5, 5, 5);
+  EXPECT_EQ(see(&pose).state, TrackState::kSearching);
+  for (int i = 0; i < 4; ++i) {
+    pose.translation.x() += 0.003;
+    const PoseEstimate got = see(&pose);
+    EXPECT_EQ(got.state, TrackState::kLocked);
+    EXPECT_EQ(got.target_id, 7u);
+    EXPECT_LT((got.left_from_target.translation - pose.translation).norm(), 0.005);
+    EXPECT_GT(got.covariance(2, 2), 0);
+  }
+  EXPECT_EQ(see(nullptr).state, TrackState::kCoasting);
+  PoseEstimate got;
+  for (int i = 0; i < 16; ++i) got = sut->no_frame(now += milliseconds(33));
+  EXPECT_EQ(got.state, TrackState::kLost);
+  EXPECT_EQ(got.reason, TrackReason::kNoFrames);
+  see(&pose);
+  EXPECT_EQ(see(&pose).state, TrackState::kLocked);
+}
+
+TEST_F(Tracking, a_rectangle_becomes_a_metric_model_and_is_followed) {
+  auto pose = pose_at(0.05, -0.01, 0.6, 10, -10, 0);
+  const auto centre = scene.rig.left.project(pose.translation).value();
+  ASSERT_TRUE(sut->choose_rectangle(
+      {static_cast<int>(centre.x()) - 24, static_cast<int>(centre.y()) - 16, 49, 33}, 3));
+  const PoseEstimate first = see(&pose);
+  ASSERT_TRUE(first.found);
+  EXPECT_NEAR(first.left_from_target.translation.z(), 0.6, 0.006);
+  // It moves by more than a rectangle that stayed where it was drawn could explain.
+  pose.translation += Eigen::Vector3d(0.02, 0.015, 0.03);
+  PoseEstimate later = see(&pose);
+  later = see(&pose);
+  ASSERT_TRUE(later.found);
+  const Eigen::Vector3d moved =
+      later.left_from_target.translation - first.left_from_target.translation;
+  EXPECT_LT((moved - Eigen::Vector3d(0.02, 0.015, 0.03)).norm(), 0.006);
+}
+
+TEST_F(Tracking, refuses_models_and_rectangles_that_are_not_there) {
+  EXPECT_FALSE(sut->choose_model(1, 1));
+  EXPECT_FALSE(sut->choose_model(-1, 1));
+  EXPECT_FALSE(sut->choose_rectangle({310, 0, 20, 20}, 1));
+}
+
+TEST_F(Tracking, frames_of_another_size_are_refused) {
+  ASSERT_TRUE(sut->choose_model(0, 1));
+  test::FlatScene other;
+  other.rig.left.width = other.rig.right.width = 200;
+  const test::Picture small = other.see(true, nullptr, 1);
+  EXPECT_FALSE(sut->process(small.view(), small.view(), now, 1, {}, serial).found);
+}
+
+TEST(TrackState, needs_as_many_finds_in_a_row_as_configured) {
+  TrackStateMachine sut(3, milliseconds(500));
+  const TimePoint t = time_from_ns(0);
+  sut.step(true, t);
+  sut.step(true, t);
+  EXPECT_EQ(sut.step(false, t), TrackState::kSearching);
+  sut.step(true, t);
+  sut.step(true, t);
+  EXPECT_EQ(sut.step(true, t), TrackState::kLocked);
+}
+
+TEST(TrackState, coasts_for_as_long_as_configured_and_not_longer) {
+  TrackStateMachine sut(1, milliseconds(500));
+  const TimePoint t = time_from_ns(0);
+  sut.step(true, t);
+  EXPECT_EQ(sut.step(false, t + milliseconds(500)), TrackState::kCoasting);
+  EXPECT_EQ(sut.step(false, t + milliseconds(501)), TrackState::kLost);
+}
+
+}  // namespace
+}  // namespace gannet::track
