@@ -58,6 +58,7 @@ struct Command {
 // What was given, or the presets. Asking for a name that the table does not have is a bug.
 class Arguments {
  public:
+  bool knows(std::string_view name) const { return given_.count(name) > 0; }  // in the table
   bool given(std::string_view name) const;  // typed by the person
   bool flag(std::string_view name) const { return given(name); }
   std::string text(std::string_view name) const;                // "" if absent and without preset

@@ -1,5 +1,6 @@
 #include "src/tool/inputs.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "platform/linux/cpu.hpp"
@@ -9,6 +10,8 @@
 
 namespace gannet::tool {
 
+constexpr int kMostThreads = 16;  // what a tracker reserves room for
+
 Argument rig_option() {
   return {.name = "rig",
           .value = "RIG",
@@ -16,10 +19,10 @@ Argument rig_option() {
           .help = "Calibration of the two cameras, a TOML file."};
 }
 
-std::vector<Argument> search_options() {
+std::vector<Argument> search_options(const std::string& depths) {
   const track::TrackConfig preset;
   return {
-      {.name = "z-mm",
+      {.name = depths,
        .kind = ArgumentKind::kNumbers,
        .value = "NEAR:FAR",
        .count = 2,
@@ -76,7 +79,7 @@ std::vector<Argument> search_options() {
        .kind = ArgumentKind::kInteger,
        .value = "N",
        .min = 0,
-       .max = 256,
+       .max = kMostThreads,
        .preset = "0",
        .help = "Threads that share the work, 0: one for each core; the answer does not depend on "
                "it."},
@@ -85,11 +88,14 @@ std::vector<Argument> search_options() {
        .value = "N",
        .min = 0,
        .preset = std::to_string(preset.seed),
-       .help = "Of the search; the same seed gives the same pose."},
-      {.name = "simd",
-       .value = "NAME",
-       .preset = "auto",
-       .help = "Kernels to use: auto, scalar, avx2, neon; the answer does not depend on them."}};
+       .help = "Of the search; the same seed gives the same pose."}};
+}
+
+Argument simd_option() {
+  return {.name = "simd",
+          .value = "NAME",
+          .preset = "auto",
+          .help = "Kernels to use: auto, scalar, avx2, neon; the answer does not depend on them."};
 }
 
 std::vector<Argument> joined(std::vector<Argument> a, const std::vector<Argument>& b) {
@@ -97,10 +103,11 @@ std::vector<Argument> joined(std::vector<Argument> a, const std::vector<Argument
   return a;
 }
 
-Result<track::TrackConfig> search_config(const Arguments& arguments, bool rectangle) {
+Result<track::TrackConfig> search_config(const Arguments& arguments, bool rectangle,
+                                         const std::string& depths) {
   track::TrackConfig config;
-  const std::vector<double> z = arguments.numbers("z-mm");
-  if (z[0] >= z[1]) return Error{"--z-mm: the far end must be beyond the near one"};
+  const std::vector<double> z = arguments.numbers(depths);
+  if (z[0] >= z[1]) return Error{"--" + depths + ": the far end must be beyond the near one"};
   config.z_min_m = z[0] / 1000;
   config.z_max_m = z[1] / 1000;
   const std::vector<double> box = arguments.numbers("box-mm");
@@ -149,7 +156,7 @@ Result<vision::PatchModel> read_model(const std::string& path, const track::Trac
 }
 
 Result<std::unique_ptr<Parallel>> make_workers(int threads) {
-  const int wanted = threads > 0 ? threads : linux_os::core_count();
+  const int wanted = threads > 0 ? threads : std::min(linux_os::core_count(), kMostThreads);
   if (wanted <= 1) return std::unique_ptr<Parallel>(std::make_unique<Serial>());
   auto pool = linux_os::WorkerPool::create(
       "worker", std::vector<linux_os::ThreadConfig>(static_cast<std::size_t>(wanted - 1)));

@@ -17,11 +17,13 @@
 namespace gannet::tool {
 
 Argument rig_option();
-std::vector<Argument> search_options();
+std::vector<Argument> search_options(const std::string& depths = "z-mm");  // its option's name
+Argument simd_option();
 std::vector<Argument> joined(std::vector<Argument> a, const std::vector<Argument>& b);
 
 // What search_options() say. fitness and optimiser fit the kind of target.
-Result<track::TrackConfig> search_config(const Arguments& arguments, bool rectangle);
+Result<track::TrackConfig> search_config(const Arguments& arguments, bool rectangle,
+                                         const std::string& depths = "z-mm");
 
 // which: "left" or "right", for the error.
 Result<hal::Image> read_camera_image(const std::string& path, const Intrinsics& camera,

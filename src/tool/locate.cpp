@@ -44,7 +44,8 @@ Command describe_locate() {
   command.options = joined(command.options, search_options());
   command.options = joined(
       command.options,
-      {{.name = "json", .kind = ArgumentKind::kFlag, .help = "Print the answer as JSON."},
+      {simd_option(),
+       {.name = "json", .kind = ArgumentKind::kFlag, .help = "Print the answer as JSON."},
        {.name = "overlay",
         .value = "FILE",
         .help = "Write both images with outline and axes (x red, y green, z blue) as a PNG."}});

@@ -62,12 +62,12 @@ Result<void> Locator::choose_target(const Arguments& arguments, const track::Tra
   return {};
 }
 
-Result<Locator> Locator::create(const Arguments& arguments) {
+Result<Locator> Locator::create(const Arguments& arguments, const std::string& depths) {
   Locator made;
-  const bool has_roi = arguments.given("roi");
+  const bool has_roi = arguments.knows("roi") && arguments.given("roi");
   if (has_roi == arguments.given("model"))
     return Error{"one of --model and --roi says what to look for"};
-  const auto config = search_config(arguments, has_roi);
+  const auto config = search_config(arguments, has_roi, depths);
   if (!config) return config.error();
   auto rig = config::load_rig(arguments.text("rig"));
   if (!rig) return rig.error();

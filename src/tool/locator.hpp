@@ -24,9 +24,9 @@ std::vector<Argument> pair_options();
 
 class Locator {
  public:
-  // By --rig, --left, --right, --model or --roi, and search_options(). Error: which of them is
-  // wrong and how.
-  static Result<Locator> create(const Arguments& arguments);
+  // By --rig, --left, --right, --model or --roi, and search_options(depths). Error: which of them
+  // is wrong and how.
+  static Result<Locator> create(const Arguments& arguments, const std::string& depths = "z-mm");
 
   Answer locate();
 

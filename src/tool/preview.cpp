@@ -3,20 +3,27 @@
 #include <algorithm>
 #include <optional>
 
-#include "src/tool/drawing.hpp"
+#include "src/image_file/drawing.hpp"
 
 namespace gannet::tool {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using image_file::Canvas;
+namespace colours = image_file::colours;
 
-hal::Image crop_of(const vision::PhotoPatch& patch) {
-  hal::Image crop(patch.width, patch.height, hal::PixelFormat::kYuv444);
-  for (int y = 0; y < patch.height; ++y)
-    for (int x = 0; x < patch.width; ++x)
-      for (int c = 0; c < 3; ++c)
-        crop.row(c, y)[x] = patch.yuv[static_cast<std::size_t>(3 * (y * patch.width + x) + c)];
+constexpr int kGap = 4;  // pixels between the eyes
+constexpr image_file::Colour kMagenta = {255, 0, 255};
+
+hal::Image enlarged_crop(const vision::PhotoPatch& patch, int scale) {
+  hal::Image crop(patch.width * scale, patch.height * scale, hal::PixelFormat::kYuv444);
+  for (int y = 0; y < crop.height(); ++y)
+    for (int x = 0; x < crop.width(); ++x)
+      for (int c = 0; c < 3; ++c) {
+        const int at = 3 * (y / scale * patch.width + x / scale) + c;
+        crop.row(c, y)[x] = patch.yuv[static_cast<std::size_t>(at)];
+      }
   return hal::to_rgb24(crop.view());
 }
 
@@ -24,32 +31,30 @@ hal::Image crop_of(const vision::PhotoPatch& patch) {
 struct Eye {
   const Intrinsics& camera;
   std::optional<Transform<RightCamera, LeftCamera>> from_left;
-  Vector2d corner;
-  std::optional<Vector2d> pixel(const Vector3d& in_left) const {
-    auto at = camera.project(from_left ? (*from_left)(in_left) : in_left);
-    if (at) *at += corner;
-    // A point far outside would draw into the other eye's image.
-    const bool inside = at && at->x() >= corner.x() - 1 && at->x() <= corner.x() + camera.width;
-    return inside ? at : std::nullopt;
+  int first_column = 0;
+
+  // Empty outside the image: it would be drawn into the other eye's.
+  std::optional<image_file::Point> pixel(const Vector3d& in_left) const {
+    const auto at = camera.project(from_left ? (*from_left)(in_left) : in_left);
+    if (!at || at->x() < -1 || at->x() > camera.width) return std::nullopt;
+    return image_file::Point{at->x() + first_column, at->y()};
   }
 };
 
-void draw_between(hal::Image& picture, const Eye& eye, const Vector3d& a, const Vector3d& b,
-                  double width, Colour colour) {
-  const auto from = eye.pixel(a);
-  const auto to = eye.pixel(b);
-  if (from && to) draw_line(picture, *from, *to, width, colour);
-}
-
-void draw_target(hal::Image& picture, const Eye& eye, const Transform<LeftCamera, Target>& pose,
+void draw_target(Canvas& canvas, const Eye& eye, const Transform<LeftCamera, Target>& pose,
                  const std::vector<Segment>& outline, double axis_m) {
-  const auto on_plane = [&](const Vector2d& at) { return pose(Vector3d(at.x(), at.y(), 0)); };
-  for (const Segment& s : outline)
-    draw_between(picture, eye, on_plane(s.from), on_plane(s.to), 1, kMagenta);
-  const Colour colours[3] = {kRed, kGreen, kBlue};
-  for (int axis = 0; axis < 3; ++axis)
-    draw_between(picture, eye, pose(Vector3d::Zero()), pose(axis_m * Vector3d::Unit(axis)), 3,
-                 colours[axis]);
+  const auto pixel = [&](const Vector3d& on_target) { return eye.pixel(pose(on_target)); };
+  for (const Segment& s : outline) {
+    const auto from = pixel({s.from.x(), s.from.y(), 0});
+    const auto to = pixel({s.to.x(), s.to.y(), 0});
+    if (from && to) canvas.line(*from, *to, kMagenta, 1);
+  }
+  const image_file::Colour axes[3] = {colours::kRed, colours::kGreen, colours::kBlue};
+  const auto origin = pixel(Vector3d::Zero());
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto end = pixel(axis_m * Vector3d::Unit(axis));
+    if (origin && end) canvas.arrow(*origin, *end, axes[axis]);
+  }
 }
 
 }  // namespace
@@ -88,31 +93,29 @@ std::vector<Segment> outline_of(const vision::Rectangle& r, const Intrinsics& le
 }
 
 hal::Image draw_preview(const vision::PhotoPatch& patch, const vision::PatchModel& model) {
-  const int scale = std::clamp(720 / std::max(patch.width, patch.height), 1, 8);
-  hal::Image picture(patch.width * scale, patch.height * scale, hal::PixelFormat::kRgb24);
-  put(picture, crop_of(patch), 0, 0, scale);
-  const auto at = [&](double x_m, double y_m) -> Vector2d {
+  const int scale = std::clamp(1000 / std::max(patch.width, patch.height), 1, 8);
+  hal::Image picture = enlarged_crop(patch, scale);
+  Canvas canvas(picture);
+  const auto at = [&](double x_m, double y_m) -> image_file::Point {
     return {(patch.centre_px.x() + x_m * patch.fx / patch.distance_m + 0.5) * scale - 0.5,
             (patch.centre_px.y() + y_m * patch.fy / patch.distance_m + 0.5) * scale - 0.5};
   };
   for (const vision::ModelPoint& p : model.points)
-    draw_dot(picture, at(static_cast<double>(p.x_m), static_cast<double>(p.y_m)), 0.8,
-             p.inside ? kGreen : kBlue);
+    canvas.disc(at(static_cast<double>(p.x_m), static_cast<double>(p.y_m)), 1,
+                p.inside ? colours::kGreen : colours::kBlue);
   for (const Segment& s : outline_of(patch))
-    draw_line(picture, at(s.from.x(), s.from.y()), at(s.to.x(), s.to.y()), 1.5, kMagenta);
-  draw_dot(picture, at(0, 0), 3, kYellow);
+    canvas.line(at(s.from.x(), s.from.y()), at(s.to.x(), s.to.y()), kMagenta);
+  canvas.disc(at(0, 0), 3, colours::kYellow);
   return picture;
 }
 
 hal::Image draw_overlay(const hal::Image& left, const hal::Image& right, const StereoRig& rig,
                         const Transform<LeftCamera, Target>& pose,
                         const std::vector<Segment>& outline, double axis_m) {
-  hal::Image picture(left.width() + right.width(), std::max(left.height(), right.height()),
-                     hal::PixelFormat::kRgb24);
-  put(picture, hal::to_rgb24(left.view()), 0, 0, 1);
-  put(picture, hal::to_rgb24(right.view()), left.width(), 0, 1);
-  draw_target(picture, {rig.left, std::nullopt, {0, 0}}, pose, outline, axis_m);
-  draw_target(picture, {rig.right, rig.right_from_left, {left.width(), 0}}, pose, outline, axis_m);
+  hal::Image picture = image_file::side_by_side(left.view(), right.view(), kGap);
+  Canvas canvas(picture);
+  draw_target(canvas, {rig.left, std::nullopt, 0}, pose, outline, axis_m);
+  draw_target(canvas, {rig.right, rig.right_from_left, left.width() + kGap}, pose, outline, axis_m);
   return picture;
 }
 

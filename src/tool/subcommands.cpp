@@ -65,7 +65,8 @@ std::string usage_hint(const std::string& word) {
 }  // namespace
 
 std::span<const Subcommand> subcommands() {
-  static const std::vector<Subcommand> kTable = {model_build_subcommand(), locate_subcommand()};
+  static const std::vector<Subcommand> kTable = {model_build_subcommand(), locate_subcommand(),
+                                                 track_subcommand(), map_subcommand()};
   return kTable;
 }
 
