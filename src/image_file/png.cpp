@@ -58,7 +58,8 @@ bool run(Session& session, void (*step)(Session&)) {
 }
 
 struct Header {
-  int width, height, bit_depth, colour_type;
+  int width, height, colour_type;
+  bool has_colour() const { return (colour_type & PNG_COLOR_MASK_COLOR) != 0; }
 };
 
 // Reading, in two steps with the caller's memory taken in between.
@@ -84,7 +85,6 @@ class Reader {
     if (!done) return failure();
     const Header header{static_cast<int>(png_get_image_width(session_.png, session_.info)),
                         static_cast<int>(png_get_image_height(session_.png, session_.info)),
-                        png_get_bit_depth(session_.png, session_.info),
                         png_get_color_type(session_.png, session_.info)};
     if (std::int64_t{header.width} * header.height > kMaxPixels)
       return Error{"PNG of " + std::to_string(header.width) + " × " +
@@ -99,7 +99,6 @@ class Reader {
     const std::size_t row =
         static_cast<std::size_t>(header.width) * static_cast<std::size_t>(channels * bits / 8);
     for (std::size_t y = 0; y < session_.rows.size(); ++y) session_.rows[y] = samples + y * row;
-    const bool colour = (header.colour_type & PNG_COLOR_MASK_COLOR) != 0;
     bool done = run(session_, [](Session& s) { png_set_expand(s.png); });
     if (done && bits == 8) done = run(session_, [](Session& s) { png_set_scale_16(s.png); });
     if (done && bits == 16)
@@ -107,11 +106,7 @@ class Reader {
         png_set_expand_16(s.png);
         if (std::endian::native == std::endian::little) png_set_swap(s.png);
       });
-    if (done && colour && channels == 1)
-      done = run(session_, [](Session& s) {
-        png_set_rgb_to_gray_fixed(s.png, PNG_ERROR_ACTION_NONE, 29900, 58700);
-      });
-    if (done && !colour && channels > 1)
+    if (done && !header.has_colour() && channels > 1)
       done = run(session_, [](Session& s) { png_set_gray_to_rgb(s.png); });
     if (done && channels == 4)
       done = run(session_, [](Session& s) { png_set_add_alpha(s.png, 0xffff, PNG_FILLER_AFTER); });
@@ -140,16 +135,30 @@ class Reader {
   Session session_;
 };
 
+// By our own weights: libpng's grey depends on the gamma that a file claims.
+template <class Sample>
+Raster<Sample> luma_of(const Raster<Sample>& rgb) {
+  Raster<Sample> grey(rgb.width, rgb.height, 1);
+  for (std::size_t i = 0; i < grey.samples.size(); ++i) {
+    const Sample* pixel = &rgb.samples[3 * i];
+    grey.samples[i] =
+        static_cast<Sample>((299u * pixel[0] + 587u * pixel[1] + 114u * pixel[2] + 500u) / 1000u);
+  }
+  return grey;
+}
+
 template <class Sample>
 Result<Raster<Sample>> decode(std::span<const std::uint8_t> bytes, int channels) {
   Reader reader(bytes);
   const Result<Header> header = reader.read_header();
   if (!header) return header.error();
-  Raster<Sample> raster(header->width, header->height, channels);
+  const bool to_grey = channels == 1 && header->has_colour();
+  Raster<Sample> raster(header->width, header->height, to_grey ? 3 : channels);
   const Result<void> done =
-      reader.read_pixels(*header, channels, 8 * static_cast<int>(sizeof(Sample)),
+      reader.read_pixels(*header, raster.channels, 8 * static_cast<int>(sizeof(Sample)),
                          reinterpret_cast<std::uint8_t*>(raster.samples.data()));
   if (!done) return done.error();
+  if (to_grey) return luma_of(raster);
   return raster;
 }
 

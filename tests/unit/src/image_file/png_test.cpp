@@ -120,6 +120,21 @@ TEST(Png, a_header_that_promises_a_huge_image_is_refused_before_memory_is_taken)
   EXPECT_NE(with_size(16385, 1).error().text.find("broken PNG at byte"), std::string::npos);
 }
 
+TEST(Png, a_claimed_gamma_changes_no_value) {
+  Raster8 raster(1, 1, 3);
+  raster.samples = {200, 100, 50};
+  auto bytes = *encode_png(raster);
+  std::vector<std::uint8_t> gamma(16);  // gAMA of 1/2.2, between header and pixels
+  put_u32(&gamma[0], 4);
+  std::copy_n("gAMA", 4, &gamma[4]);
+  put_u32(&gamma[8], 45455);
+  put_u32(&gamma[12], checksum(std::span(gamma).subspan(4, 8)));
+  bytes.insert(bytes.begin() + 33, gamma.begin(), gamma.end());
+  EXPECT_EQ(decode_png8(bytes, 3)->samples, raster.samples);
+  EXPECT_EQ(decode_png8(bytes, 1)->samples, (std::vector<std::uint8_t>{124}));
+  EXPECT_EQ(decode_png16(bytes)->samples, (std::vector<std::uint16_t>{31919}));
+}
+
 TEST(Png, rasters_that_do_not_fit_are_not_written) {
   Raster8 sut = noise<std::uint8_t>(4, 4, 3);
   sut.samples.pop_back();
