@@ -13,6 +13,7 @@
 // The reader trusts nothing: sizes are checked once against the mapping and then only our own
 // copies are used; numbers and times are checked for each pair. Who may write the file can still
 // spoil pixels, or stop the daemon by truncating it: it is a file of one user, mode 0600.
+// Creating and opening are start-up only (they take memory); all else is RT safe.
 #pragma once
 
 #include <atomic>

@@ -4,6 +4,7 @@
 //   - one line in camera_kinds.cpp,
 //   - a test beside tests/unit/hal/camera/skeleton_camera_test.cpp.
 // Not in the table of kinds itself: nobody wants grey pairs.
+// create() and start() are start-up only, capture() belongs to the capture thread and is RT safe.
 #pragma once
 
 #include <memory>
