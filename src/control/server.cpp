@@ -7,12 +7,12 @@ namespace gannet::control {
 
 using linux_os::IoStatus;
 
-Result<Server> Server::listen(const std::string& path, const std::string& group) {
+Result<std::unique_ptr<Server>> Server::listen(const std::string& path, const std::string& group) {
   auto listener = linux_os::UnixListener::listen(path, linux_os::SocketKind::kStream,
                                                  group.empty() ? 0600 : 0660, group);
   if (!listener) return Error{"control.socket: " + listener.error().text};
-  Server server;
-  server.listener_ = std::move(*listener);
+  std::unique_ptr<Server> server(new Server());
+  server->listener_ = std::move(*listener);
   return server;
 }
 

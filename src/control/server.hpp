@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <list>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -34,7 +35,7 @@ class Server {
   static constexpr std::size_t kMaxPending = 4 * 1024 * 1024;  // bytes of answers unread
 
   // group: whose members may connect beside our own user; empty: nobody else.
-  static Result<Server> listen(const std::string& path, const std::string& group);
+  static Result<std::unique_ptr<Server>> listen(const std::string& path, const std::string& group);
 
   // What to wait for.
   void add_poll(std::vector<pollfd>& fds) const;
@@ -45,6 +46,7 @@ class Server {
   const ServerCounters& counters() const { return counters_; }
 
  private:
+  Server() = default;
   struct Client {
     linux_os::UnixSocket socket;
     LineBuffer lines{kMaxLine};

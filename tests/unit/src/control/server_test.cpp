@@ -25,7 +25,7 @@ class Served {
   Served() : path_(folder_ / "control") {
     auto server = Server::listen(path_, "");
     EXPECT_TRUE(server);
-    server_ = std::make_unique<Server>(std::move(*server));
+    server_ = std::move(*server);
     thread_ = std::thread([this] {
       while (!stop_) {
         std::vector<pollfd> fds;

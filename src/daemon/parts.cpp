@@ -1,0 +1,95 @@
+#include "src/daemon/parts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "hal/camera/camera_kinds.hpp"
+#include "hal/can/can_kinds.hpp"
+#include "hal/drive/drive_kinds.hpp"
+#include "hal/gpio/line_kinds.hpp"
+#include "src/image_file/image_file.hpp"
+#include "src/modeldb/model_file.hpp"
+#include "src/track/track_config.hpp"
+
+namespace gannet::daemon {
+namespace {
+
+Result<std::vector<vision::PatchModel>> load_models(const config::DaemonConfig& config,
+                                                    std::vector<std::string>& names) {
+  std::vector<vision::PatchModel> models;
+  for (const std::string& path : config.models) {
+    auto photo = modeldb::load_model(path);
+    if (!photo) return Error{"models: " + photo.error().text};
+    auto model = vision::make_patch_model(*photo, {.inside_points = config.track.model_points});
+    if (!model) return Error{"models: " + path + ": " + model.error().text};
+    if (std::find(names.begin(), names.end(), model->name) != names.end()) {
+      return Error{"models: " + path + ": the name \"" + model->name + "\" is there twice"};
+    }
+    names.push_back(model->name);
+    models.push_back(std::move(*model));
+  }
+  return models;
+}
+
+Error at_key(const std::string& key, const Error& error) { return Error{key + ": " + error.text}; }
+
+}  // namespace
+
+Result<Parts> make_parts(const config::LoadedConfig& loaded) {
+  const config::DaemonConfig& config = loaded.config;
+  Parts parts;
+  auto models = load_models(config, parts.model_names);
+  if (!models) return models.error();
+  auto tracker = track::TargetTracker::create(config.track, loaded.rig, std::move(*models));
+  if (!tracker) return at_key("track", tracker.error());
+  parts.tracker = std::move(*tracker);
+  auto vehicle = vehicle::create_vehicle(config.vehicle);
+  if (!vehicle) return at_key("vehicle", vehicle.error());
+  parts.vehicle = std::move(*vehicle);
+  const bool has_vehicle = parts.vehicle->motors() > 0;
+  // A law needs to know where the cameras sit; without a vehicle nothing asks for it.
+  StereoRig rig = loaded.rig;
+  if (!has_vehicle && !rig.body_from_hand) rig.body_from_hand = Transform<Body, Hand>{};
+  auto law = servo::create_servo_law(config.servo, rig);
+  if (!law) return at_key("servo", law.error());
+  parts.law = std::move(*law);
+  if (!has_vehicle) return parts;
+  auto drives = hal::make_drive_group(config.drive);
+  if (!drives) return at_key("drive", drives.error());
+  parts.drives = std::move(*drives);
+  if (parts.drives->size() != parts.vehicle->motors()) {
+    return Error{"drive.motor: " + std::to_string(parts.drives->size()) + " motors for " +
+                 std::to_string(parts.vehicle->motors()) + " of the vehicle"};
+  }
+  return parts;
+}
+
+Result<Devices> open_devices(const config::LoadedConfig& loaded, TimePoint now) {
+  const config::DaemonConfig& config = loaded.config;
+  Devices devices;
+  auto estop = hal::make_input(config.gpio.estop);
+  if (!estop) return at_key("gpio.estop", estop.error());
+  devices.estop = std::move(*estop);
+  auto light = hal::make_output(config.gpio.light);
+  if (!light) return at_key("gpio.light", light.error());
+  devices.light = std::move(*light);
+  if (config.vehicle.kind != "none") {
+    auto bus = hal::make_can_bus(config.can, hal::wanted_frames(config.drive), now);
+    if (!bus) return at_key("can", bus.error());
+    devices.bus = std::move(*bus);
+  }
+  const auto pace = config.clock.kind == "stepped" ? hal::Pace::kStepped : hal::Pace::kLive;
+  auto camera = hal::make_stereo_camera(config.camera, &image_file::decode_image, pace);
+  if (!camera) return at_key("camera", camera.error());
+  devices.camera = std::move(*camera);
+  if (auto started = devices.camera->start(); !started) return at_key("camera", started.error());
+  const Intrinsics& rig = loaded.rig.left;
+  if (devices.camera->width() != rig.width || devices.camera->height() != rig.height) {
+    return Error{"camera: its images have " + std::to_string(devices.camera->width()) + " × " +
+                 std::to_string(devices.camera->height()) + " pixels, the rig says " +
+                 std::to_string(rig.width) + " × " + std::to_string(rig.height)};
+  }
+  return devices;
+}
+
+}  // namespace gannet::daemon
