@@ -142,6 +142,84 @@ tests: $(TEST_BINARIES)
 unit/%: $B/tests/unit/%/run
 	$<
 
+# ---- doors --------------------------------------------------------------------------------------
+# A door first installs what is missing, then builds and runs in a make of its own: on a bare
+# machine there is no compiler yet that this one could have asked.
+PACKAGES_BUILD := g++ libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev libpng-dev libturbojpeg0-dev
+PACKAGES_TEST  := libgtest-dev googletest
+PACKAGES_RUN   := ca-certificates
+PACKAGES_STYLE := clang-format-14 clang-14
+need = tests/support/install.sh $1
+
+help:
+	@echo "make              build gannetd, gannet and gannet-world into build/release/bin"
+	@echo "make demo         install what is missing, build, and run the main job in the simulated world"
+	@echo "make check        install what is missing, build, run all tests that need no privileges"
+	@echo "make bench        measure kernels, hand-overs and stages against references, in one run"
+	@echo "make asan, tsan   the tests under AddressSanitizer + UBSan, under ThreadSanitizer"
+	@echo "make clang        compile everything with clang++, warnings are errors"
+	@echo "make arm64        cross-compile for ARM64, run the kernels' tests under qemu"
+	@echo "make docs         write man pages and references from the descriptions in the code"
+	@echo "make format       clang-format everything"
+	@echo "make install      DESTDIR= PREFIX=/usr/local"
+	@echo "make unit/ROOM    the tests of one room, e.g. make unit/src/vision"
+	@echo "make clean        remove build/ except what was downloaded"
+	@echo "PROFILE=release|debug|asan|tsan   CXX=g++|clang++   CXXFLAGS=…   -jN"
+
+deps:
+	@$(call need,$(PACKAGES_BUILD))
+
+check:
+	@$(call need,$(PACKAGES_BUILD) $(PACKAGES_TEST) $(PACKAGES_RUN))
+	@$(MAKE) --no-print-directory assets
+	@$(MAKE) --no-print-directory all tests
+	@tests/support/run_tests.sh $B
+
+# The run without the build: what `make check` calls, also for other profiles.
+run-tests: all tests
+	@tests/support/run_tests.sh $B
+
+asan tsan:
+	@$(call need,$(PACKAGES_BUILD) $(PACKAGES_TEST) $(PACKAGES_RUN))
+	@$(MAKE) --no-print-directory assets
+	@$(MAKE) --no-print-directory PROFILE=$@ run-tests
+
+CLANG_FLAGS = -fsyntax-only $(filter-out -MMD -MP,$(CXXFLAGS_COMMON)) -O1
+clang:
+	@$(call need,$(PACKAGES_BUILD) $(PACKAGES_TEST) $(PACKAGES_STYLE))
+	@git ls-files -co --exclude-standard 'platform/*.cpp' 'hal/*.cpp' 'src/*.cpp' 'tests/unit/*.cpp' \
+	   'tests/rt/*.cpp' 'tests/stress/*.cpp' 'tests/system/*.cpp' | grep -v _neon.cpp | \
+	 xargs -P $(shell nproc) -n 4 tests/support/clang_check.sh $(CLANG_FLAGS)
+	@echo "clang: no warnings"
+
+ARM64 := aarch64-linux-gnu
+arm64:
+	@$(call need,$(PACKAGES_BUILD) $(PACKAGES_TEST) g++-$(ARM64) qemu-user-static)
+	@tests/support/arm64.sh $(ARM64)
+
+format:
+	@$(call need,$(PACKAGES_STYLE))
+	@git ls-files -co --exclude-standard '*.hpp' '*.cpp' | xargs clang-format-14 -i
+
+docs: all
+	@tests/support/make_docs.sh $B
+
+install: all
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1 $(DESTDIR)$(PREFIX)/share/man/man5 \
+	  $(DESTDIR)$(PREFIX)/share/man/man8 $(DESTDIR)$(PREFIX)/share/gannet/scenarios \
+	  $(DESTDIR)$(PREFIX)/share/gannet/boards $(DESTDIR)$(PREFIX)/share/doc/gannet/examples
+	install $(foreach p,$(PROGRAMS),$B/bin/$p) $(DESTDIR)$(PREFIX)/bin
+	for n in 1 5 8; do for f in docs/man/*.$$n; do [ ! -e $$f ] || \
+	  install -m 644 $$f $(DESTDIR)$(PREFIX)/share/man/man$$n; done; done
+	install -m 644 tests/scenarios/*.toml $(DESTDIR)$(PREFIX)/share/gannet/scenarios
+	install -m 644 platform/boards/*.toml $(DESTDIR)$(PREFIX)/share/gannet/boards
+	install -m 644 docs/examples/*.toml $(DESTDIR)$(PREFIX)/share/doc/gannet/examples
+
+clean:
+	find build -mindepth 1 -maxdepth 1 ! -name assets -exec rm -rf {} + 2>/dev/null; true
+
+.PHONY: all tests help deps check run-tests asan tsan clang arm64 format docs install clean
+
 include tests/support/assets.mk
 
 -include $(shell find $B -name '*.d' 2>/dev/null)
