@@ -72,23 +72,36 @@ Result<void> Simulation::make_devices() {
   config.gpio.light = line_config(files_, kLightLine);
   const auto written = write_files(scenario_, files_, config);
   if (!written) return written.error();
+  const auto lines = make_lines();
+  if (!lines) return lines.error();
+  const auto motors = make_motors(config.drive);
+  if (!motors) return motors.error();
+  return make_steps();
+}
 
+Result<void> Simulation::make_lines() {
   auto lines = hal::SimulatedLines::create(files_.lines(), {kEstopLine, kReleaseLine, kLightLine});
   if (!lines) return lines.error();
   lines_.emplace(std::move(*lines));
-  if (scenario_.vehicle.kind == "rov") {
-    auto motors = Motors::create(files_.bus(), config.drive,
-                                 from_seconds(scenario_.vehicle.drive_delay_ms / 1000),
-                                 static_cast<std::uint64_t>(scenario_.seed));
-    if (!motors) return motors.error();
-    motors_ = std::move(*motors);
-    trace_.motors = std::min(motors_->count(), kMaxMotors);
-  }
-  if (options_.stepped) {
-    auto steps = linux_os::StepServer::listen(files_.step());
-    if (!steps) return steps.error();
-    steps_.emplace(std::move(*steps));
-  }
+  return {};
+}
+
+Result<void> Simulation::make_motors(const hal::DriveConfig& drives) {
+  if (scenario_.vehicle.kind == "none") return {};
+  auto motors =
+      Motors::create(files_.bus(), drives, from_seconds(scenario_.vehicle.drive_delay_ms / 1000),
+                     static_cast<std::uint64_t>(scenario_.seed));
+  if (!motors) return motors.error();
+  motors_ = std::move(*motors);
+  trace_.motors = std::min(motors_->count(), kMaxMotors);
+  return {};
+}
+
+Result<void> Simulation::make_steps() {
+  if (!options_.stepped) return {};
+  auto steps = linux_os::StepServer::listen(files_.step());
+  if (!steps) return steps.error();
+  steps_.emplace(std::move(*steps));
   return {};
 }
 

@@ -62,6 +62,9 @@ class Simulation {
  private:
   Simulation(const Scenario& scenario, const SimulationOptions& options, RunFiles files);
   Result<void> make_devices();
+  Result<void> make_lines();
+  Result<void> make_motors(const hal::DriveConfig& drives);
+  Result<void> make_steps();
   Result<std::vector<std::string>> make_cameras();
   Result<void> meet_daemon();
   Result<void> periods(const Tick& tick);
