@@ -65,5 +65,5 @@ for out in "${failures[@]:-}"; do
   grep -nE 'FAILED|Failure|rror|fail|Sanitizer' "$out" | head -n 40
   tail -n 25 "$out"
 done
-echo "$passed passed, $failed failed, $skipped skipped"
+echo "$passed passed, $failed failed, $skipped skipped" | tee "$build/tests/summary"
 [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
