@@ -5,26 +5,40 @@ namespace {
 
 constexpr std::array<const char*, kStates> kStateNames = {
     "starting", "standby", "armed", "servoing", "holding", "stopped", "faulted"};
-constexpr std::array<const char*, kCauses> kCauseNames = {
-    "none",           "estop",        "estop_unknown",    "operator_stop", "internal_fault",
-    "drive_fault",    "drives_silent", "bus_down",        "overruns",      "limits",
-    "not_started",    "not_reset",    "no_vehicle",       "no_camera",     "target_none",
-    "target_old",     "target_uncertain", "hold_expired", "disarmed"};
+constexpr std::array<const char*, kCauses> kCauseNames = {"none",
+                                                          "estop",
+                                                          "estop_unknown",
+                                                          "operator_stop",
+                                                          "internal_fault",
+                                                          "drive_fault",
+                                                          "drives_silent",
+                                                          "bus_down",
+                                                          "overruns",
+                                                          "limits",
+                                                          "not_started",
+                                                          "not_reset",
+                                                          "no_vehicle",
+                                                          "no_camera",
+                                                          "target_none",
+                                                          "target_old",
+                                                          "target_uncertain",
+                                                          "hold_expired",
+                                                          "disarmed"};
 
 // What this cycle's inputs say, most urgent first: of all that are true, the first one that the
 // present state reacts to is taken, one transition a cycle.
 enum class Event : std::uint8_t {
-  kEstop,      // the line is not surely inactive
-  kStop,       // a person's stop
-  kBug,        // an internal fault
-  kFault,      // drives, bus, overruns, limits
+  kEstop,  // the line is not surely inactive
+  kStop,   // a person's stop
+  kBug,    // an internal fault
+  kFault,  // drives, bus, overruns, limits
   kDisarm,
-  kReset,      // asked for, and nothing that stops is present
-  kArm,        // asked for, and no obstacle
+  kReset,  // asked for, and nothing that stops is present
+  kArm,    // asked for, and no obstacle
   kStarted,
-  kExpired,    // this state has lasted longer than hold_limit_s
-  kMotion,     // a target that may be followed, or a person's hand
-  kNoMotion,   // neither
+  kExpired,   // this state has lasted longer than hold_limit_s
+  kMotion,    // a target that may be followed, or a person's hand
+  kNoMotion,  // neither
 };
 constexpr int kEvents = 11;
 
@@ -39,18 +53,17 @@ constexpr int kEvents = 11;
 //
 // In Standby a fault of a drive or the bus bars arming, but is not latched: drives are often
 // switched on after the daemon. Faulted gives way to Stopped, never the other way round.
-constexpr State A = State::kStarting, B = State::kStandby, C = State::kArmed,
-                D = State::kServoing, E = State::kHolding, S = State::kStopped,
-                F = State::kFaulted;
+constexpr State A = State::kStarting, B = State::kStandby, C = State::kArmed, D = State::kServoing,
+                E = State::kHolding, S = State::kStopped, F = State::kFaulted;
 constexpr State kNext[kStates][kEvents] = {
     //            estop stop bug fault disarm reset arm started expired motion no-motion
-    /*Starting*/ {S,    S,   F,  A,    A,     A,    A,  B,      A,      A,     A},
-    /*Standby*/  {S,    S,   F,  B,    B,     B,    C,  B,      B,      B,     B},
-    /*Armed*/    {S,    S,   F,  F,    B,     C,    C,  C,      C,      D,     C},
-    /*Servoing*/ {S,    S,   F,  F,    B,     D,    D,  D,      D,      D,     E},
-    /*Holding*/  {S,    S,   F,  F,    B,     E,    E,  E,      B,      D,     E},
-    /*Stopped*/  {S,    S,   S,  S,    S,     B,    S,  S,      S,      S,     S},
-    /*Faulted*/  {S,    S,   F,  F,    F,     B,    F,  F,      F,      F,     F},
+    /*Starting*/ {S, S, F, A, A, A, A, B, A, A, A},
+    /*Standby*/ {S, S, F, B, B, B, C, B, B, B, B},
+    /*Armed*/ {S, S, F, F, B, C, C, C, C, D, C},
+    /*Servoing*/ {S, S, F, F, B, D, D, D, D, D, E},
+    /*Holding*/ {S, S, F, F, B, E, E, E, B, D, E},
+    /*Stopped*/ {S, S, S, S, S, B, S, S, S, S, S},
+    /*Faulted*/ {S, S, F, F, F, B, F, F, F, F, F},
 };
 
 bool armed(State state) { return state == C || state == D || state == E; }
@@ -76,8 +89,8 @@ bool hand(const SafetyConfig& config, const Inputs& in) {
 // Why the target must not be followed. Following begins with a lock; a short coasting, where the
 // filter predicts across a few missing images, does not end it.
 Cause target_cause(const SafetyConfig& config, State state, const Inputs& in) {
-  const bool seen = in.track == TrackState::kLocked ||
-                    (in.track == TrackState::kCoasting && state == D);
+  const bool seen =
+      in.track == TrackState::kLocked || (in.track == TrackState::kCoasting && state == D);
   if (!seen || !in.estimate_valid) return Cause::kTargetNone;
   if (in.estimate_age < Duration(0) || in.estimate_age > from_seconds(config.full_age_s)) {
     return Cause::kTargetOld;
@@ -144,13 +157,17 @@ Memory next(const SafetyConfig& config, const Memory& memory, const Inputs& in, 
 
 Light light_of(State state) {
   switch (state) {
-    case State::kStarting: return Light::kOff;
-    case State::kStandby: return Light::kSlow;
+    case State::kStarting:
+      return Light::kOff;
+    case State::kStandby:
+      return Light::kSlow;
     case State::kArmed:
     case State::kServoing:
-    case State::kHolding: return Light::kOn;
+    case State::kHolding:
+      return Light::kOn;
     case State::kStopped:
-    case State::kFaulted: return Light::kFast;
+    case State::kFaulted:
+      return Light::kFast;
   }
   return Light::kFast;
 }

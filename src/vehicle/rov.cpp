@@ -72,6 +72,7 @@ Rov::Rov(const RovConfig& c, const Allocation& allocation, const Allocation::Axe
   gains_.slew_n_s = c.slew_n_s;
   gains_.smoothing_s = c.acceleration_smoothing_s;
   thrusts_.setZero(allocation_.size());
+  rotors_.setZero(allocation_.size());
 }
 
 Vector6d Rov::drag(const Vector6d& v) const {
@@ -114,14 +115,19 @@ void Rov::integrate(const Vector6d& error, const Vector6d& undone, double second
   }
 }
 
-// Drag is taken implicitly: stable for every step.
-void Rov::advance_model(const Vector6d& wrench, double seconds) {
+// The lag is one of the rotor's speed, whose square the thrust is: near rest it answers late, and
+// most of all where it reverses. Drag is taken implicitly: stable for every step.
+void Rov::advance_model(double seconds) {
   const double part = plant_.lag_s > 0 ? 1 - std::exp(-seconds / plant_.lag_s) : 1;
-  model_wrench_ += part * (wrench - model_wrench_);
+  for (int i = 0; i < allocation_.size(); ++i) {
+    const double wanted = std::copysign(std::sqrt(std::abs(thrusts_[i])), thrusts_[i]);
+    rotors_[i] += part * (wanted - rotors_[i]);
+  }
+  const Vector6d wrench = allocation_.wrench(rotors_.cwiseProduct(rotors_.cwiseAbs()));
   for (int i = 0; i < 6; ++i) {
     const double v = model_velocity_[i];
     const double damping = plant_.linear_drag[i] + plant_.quadratic_drag[i] * std::abs(v);
-    const double force = model_wrench_[i] + controlled_[i] * plant_.steady[i];
+    const double force = wrench[i] + (stopped_ ? 0 : controlled_[i] * plant_.steady[i]);
     model_velocity_[i] =
         (plant_.mass[i] * v + seconds * force) / (plant_.mass[i] + seconds * damping);
   }
@@ -133,7 +139,8 @@ void Rov::stop(std::span<hal::DriveSetpoint> setpoints, double seconds) {
   integral_.setZero();
   smooth_.setZero();
   // A vehicle without thrust drifts as it likes; nothing is claimed of its buoyancy then.
-  advance_model(-plant_.steady.cwiseProduct(controlled_), seconds);
+  stopped_ = true;
+  advance_model(seconds);
 }
 
 Reach Rov::update(const MotionWish& wish, Permit permit, Duration dt,
@@ -163,7 +170,8 @@ Reach Rov::update(const MotionWish& wish, Permit permit, Duration dt,
   }
   const Vector6d reached = allocation_.wrench(thrusts_);
   if (wish.measured_valid) integrate(error, wished - reached, seconds);
-  advance_model(reached, seconds);
+  stopped_ = false;
+  advance_model(seconds);
   reach.wished = wrench_of(wished);
   reach.reached = wrench_of(reached);
   reach.unreachable = wrench_of(share.unreachable);
@@ -178,7 +186,7 @@ Twist<Body> Rov::own_velocity() const {
 void Rov::reset() {
   integral_.setZero();
   smooth_.setZero();
-  model_wrench_.setZero();
+  rotors_.setZero();
   model_velocity_.setZero();
 }
 

@@ -43,7 +43,7 @@ class Rov final : public Vehicle {
   Vector6d acceleration(const Vector6d& velocity, Permit permit, double seconds);
   void slew(const Allocation::Thrusts& wanted, double seconds);
   void integrate(const Vector6d& error, const Vector6d& undone, double seconds);
-  void advance_model(const Vector6d& wrench, double seconds);
+  void advance_model(double seconds);
   void stop(std::span<hal::DriveSetpoint> setpoints, double seconds);
 
   Plant plant_;
@@ -54,7 +54,8 @@ class Rov final : public Vehicle {
   Allocation::Thrusts thrusts_;
   Vector6d integral_ = Vector6d::Zero();  // N, N·m
   Vector6d smooth_ = Vector6d::Zero();    // the wish, low-passed
-  Vector6d model_wrench_ = Vector6d::Zero();
+  Allocation::Thrusts rotors_;            // √N, signed: the model's rotor speeds
+  bool stopped_ = true;                   // no permit in the newest cycle
   Vector6d model_velocity_ = Vector6d::Zero();
 };
 

@@ -1,5 +1,5 @@
 // Thrusters as data and as a curve: where ArduSub's frames have them, and how command and thrust
-// belong together.
+// belong together. RT safe but thrusters_of, which is start-up only.
 #pragma once
 
 #include <vector>

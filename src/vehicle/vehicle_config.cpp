@@ -59,8 +59,13 @@ void describe_body(Visitor& v, RovConfig& c) {
            .help = "Drag in proportion to speed squared; x, y, z, roll, pitch, yaw."});
   v.field("net_buoyancy_n", c.net_buoyancy_n,
           {.min = -10000, .max = 10000, .unit = "N", .help = "Buoyancy minus weight, upward."});
-  v.field("thruster_lag_s", c.thruster_lag_s,
-          {.min = 0, .max = 10, .unit = "s", .help = "Time constant from command to thrust."});
+  v.field(
+      "thruster_lag_s", c.thruster_lag_s,
+      {.min = 0,
+       .max = 10,
+       .unit = "s",
+       .help =
+           "Time constant of the rotors' speed after a command; rather too long than too short."});
 }
 
 void describe_loop(Visitor& v, RovConfig& c) {

@@ -5,6 +5,8 @@
 //    1898 reports its own set for the Heavy frame;
 //  - thrust curve: Blue Robotics, T200 public performance data 10–20 V, September 2019: at 16 V
 //    51.4 N forward, 39.9 N backward, no thrust within 1472–1528 µs of 1500 ± 400 µs.
+//  - lag of 0.2 s: the UUV Simulator's public BlueROV2 model. Too much of it costs little, too
+//    little makes the loop swing.
 // Start-up only.
 #pragma once
 
@@ -42,7 +44,7 @@ struct RovConfig {
   std::vector<double> linear_drag = {4.03, 6.22, 5.18, 0.07, 0.07, 0.07};
   std::vector<double> quadratic_drag = {18.18, 21.66, 36.99, 1.55, 1.55, 1.55};
   double net_buoyancy_n = 0;              // upward
-  double thruster_lag_s = 0.08;           // from command to thrust, first order
+  double thruster_lag_s = 0.2;            // of the rotors' speed, first order
   double velocity_gain = 4;               // 1/s, times mass: N per m/s
   double velocity_integral = 1.5;         // 1/s²
   double rate_gain = 5;                   // 1/s

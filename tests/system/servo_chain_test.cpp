@@ -1,7 +1,7 @@
 // Pose filter, servo law and ROV in one loop, against a small plant of its own: a rigid body with
-// drag, thruster lag and a push that the vehicle's model does not know; images at 30 Hz that come
-// 40 ms late with noise; the servo loop at 200 Hz. It is here and not with the rooms' tests, for
-// none of the three rooms may know the others.
+// drag, lag of the rotors' speed and a push that the vehicle's model does not know; images at 30 Hz
+// that come 40 ms late with noise; the servo loop at 200 Hz. It is here and not with the rooms'
+// tests, for none of the three rooms may know the others.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -56,10 +56,14 @@ class Plant {
       const double command = commands[static_cast<std::size_t>(i)].value;
       thrusts[i] = 0.9 * vehicle::thrust_of(config_.curve, command);
     }
-    lagged_ += (1 - std::exp(-kStep / lag_s_)) * (allocation_->wrench(thrusts) - lagged_);
+    for (int i = 0; i < 6; ++i) {
+      const double wanted = std::copysign(std::sqrt(std::abs(thrusts[i])), thrusts[i]);
+      rotors_[i] += (1 - std::exp(-kStep / lag_s_)) * (wanted - rotors_[i]);
+      thrusts[i] = rotors_[i] * std::abs(rotors_[i]);
+    }
     Vector6d v;
     v << velocity.linear, velocity.angular;
-    Vector6d force = lagged_;
+    Vector6d force = allocation_->wrench(thrusts);
     force.head<3>() += pose.rotation.conjugate() * push_n;
     const Vector3d up = pose.rotation.conjugate() * Vector3d::UnitZ();
     force.tail<3>() += 1.1 * Vector3d::UnitZ().cross(up);  // righting moment, N·m
@@ -82,14 +86,15 @@ class Plant {
   vehicle::RovConfig config_;
   double mass_, lag_s_;
   std::optional<vehicle::Allocation> allocation_;
-  Vector6d lagged_ = Vector6d::Zero();
+  Vector6d rotors_ = Vector6d::Zero();  // √N, signed
 };
 
 struct Options {
-  vehicle::RovConfig rov;
+  vehicle::RovConfig rov;   // what the vehicle believes
+  vehicle::RovConfig real;  // what it is
   bool push = true;
-  double real_mass = 1;     // of what the vehicle's model says
-  double real_lag_s = 0.076;
+  double real_mass = 1;  // of what the vehicle's model says
+  double real_lag_s = 0.2;
   track::FilterConfig filter;
   servo::ServoConfig servo;
   double seconds = 20;
@@ -125,7 +130,7 @@ std::vector<Moment> run(const Options& options, const Vector3d& start_m, double 
   const auto rov = std::move(vehicle::create_vehicle(config)).value();
   const auto law = std::move(servo::create_servo_law(options.servo, cameras)).value();
   track::PoseFilter filter(options.filter);
-  Plant plant(config.rov, options.real_mass, options.real_lag_s);
+  Plant plant(options.real, options.real_mass, options.real_lag_s);
   const servo::Goal goal = servo::goal_of(options.servo.params);
   const Transform<World, Target> home =
       Transform<World, Body>() * *cameras.body_from_hand * goal.hand_from_target;
@@ -256,8 +261,8 @@ TEST(ServoChain, lags_visibly_without_feed_forward_and_prediction) {
     const double bad = phase_lag_deg(without, period_s);
     RecordProperty("lag_deg_" + std::to_string(static_cast<int>(period_s)),
                    std::to_string(good) + " without: " + std::to_string(bad));
-    EXPECT_GT(bad, good + 5) << period_s;
-    EXPECT_LT(std::abs(good), 10) << period_s;
+    EXPECT_GT(bad, good + 3) << period_s;
+    EXPECT_LT(std::abs(good), 15) << period_s;
   }
 }
 
@@ -268,7 +273,7 @@ TEST(ServoChain, errs_less_on_the_path_with_feed_forward) {
   const Options without = without_feed_forward_and_prediction(with);
   const double good = rms(run(with, Vector3d::Zero(), 0), 10).norm();
   const double bad = rms(run(without, Vector3d::Zero(), 0), 10).norm();
-  EXPECT_GT(bad, 1.4 * good);
+  EXPECT_GT(bad, 1.15 * good);
 }
 
 TEST(ServoChain, bears_images_that_are_three_hundred_milliseconds_late_by_prediction_alone) {
@@ -290,6 +295,21 @@ TEST(ServoChain, bears_slow_cameras_and_lost_images) {
   lossy.image_hz = 30;
   lossy.lost = 0.4;
   EXPECT_LT(rms(run(lossy, Vector3d::Zero(), 0), 10).norm(), 0.010);
+}
+
+// The Heavy as von Benzon et al. 2022 measured it has up to eight times the drag that Wu 2018 found
+// and the config believes in.
+TEST(ServoChain, bears_a_vehicle_that_is_not_what_the_config_says) {
+  Options options;
+  options.real.mass_kg = 13.5;
+  options.real.inertia_kg_m2 = {0.26, 0.23, 0.37};
+  options.real.added_mass = {6.36, 7.12, 18.68, 0.189, 0.135, 0.222};
+  options.real.linear_drag = {13.7, 0, 33.0, 0, 0.8, 0};
+  options.real.quadratic_drag = {141, 217, 190, 1.19, 0.47, 1.5};
+  EXPECT_LT(rms(run(options, Vector3d(-0.2, 0.2, 0.1), 20 * kDegree), 10).norm(), 0.020);
+  options.seconds = 60;
+  options.path = p001_path;
+  EXPECT_LT(rms(run(options, Vector3d::Zero(), 0), 10).norm(), 0.015);
 }
 
 TEST(ServoChain, repeats_bit_for_bit) {
