@@ -46,8 +46,9 @@ std::vector<std::string> split(std::string_view text, char at) {
 
 std::string plain(double number) {
   char text[64];
-  const auto end = std::to_chars(text, text + sizeof text, number).ptr;
-  return {text, end};
+  const auto format =
+      std::abs(number) < 1e15 ? std::chars_format::fixed : std::chars_format::general;
+  return {text, std::to_chars(text, text + sizeof text, number, format).ptr};
 }
 
 std::string range_text(const Argument& a) {
@@ -145,17 +146,22 @@ class CommandParser {
     const std::size_t equals = text.find('=');
     const std::string name = is_long ? text.substr(2, equals - 2) : "";
     const Argument* a = is_long ? find(name, 0) : text.size() == 2 ? find("", text[1]) : nullptr;
-    if (a == nullptr) return refuse_unknown(text.substr(0, equals), name);
+    if (a == nullptr) {
+      // What follows was most likely meant as its value; to complain of that too would confuse.
+      if (equals == std::string::npos && has_value_next()) ++next_;
+      return refuse_unknown(text.substr(0, equals), name);
+    }
     const bool has_value = is_long && equals != std::string::npos;
     if (a->kind == ArgumentKind::kFlag) {
       if (has_value) return refuse(shown_name(*a) + " takes no value");
       return take(*a, "", shown_name(*a));
     }
     if (has_value) return take(*a, text.substr(equals + 1), shown_name(*a));
-    const bool follows = next_ < args_.size() && !looks_like_option(args_[next_]);
-    if (!follows) return refuse(shown_name(*a) + " needs a value: " + a->value);
+    if (!has_value_next()) return refuse(shown_name(*a) + " needs a value: " + a->value);
     take(*a, args_[next_++], shown_name(*a));
   }
+
+  bool has_value_next() const { return next_ < args_.size() && !looks_like_option(args_[next_]); }
 
   void refuse_unknown(const std::string& shown, const std::string& name) {
     std::vector<std::string> known = {"--help", "--version"};
@@ -287,6 +293,7 @@ std::string full_help(const Argument& a) {
 
 std::string usage(const Command& command) {
   std::string text = command.name;
+  if (!command.subcommands.empty()) text += " SUBCOMMAND …";
   for (const Argument& a : command.options)
     if (a.required) text += " --" + a.name + " " + a.value;
   text += " [options]";
@@ -327,12 +334,12 @@ std::string option_head(const Argument& a) {
   return letter + "--" + a.name + (a.kind == ArgumentKind::kFlag ? "" : " " + a.value);
 }
 
-std::string help_entry(const std::string& head, const Argument& a) {
+std::string help_entry(const std::string& head, const std::string& help) {
   const std::size_t indent = 28;
   std::string text = "  " + head;
   const std::size_t used = columns(text);
   text += used + 2 <= indent ? std::string(indent - used, ' ') : "\n" + std::string(indent, ' ');
-  return text + wrapped(full_help(a), indent) + "\n";
+  return text + wrapped(help, indent) + "\n";
 }
 
 std::string indented(const std::string& lines) {
@@ -347,11 +354,13 @@ std::string help_text(const Command& command) {
   std::string text = command.name + ": " + command.summary + "\n\nUsage: " + usage(command) + "\n";
   for (const std::string& paragraph : split(command.description, '\n'))
     if (!paragraph.empty()) text += "\n" + wrapped(paragraph, 0) + "\n";
+  if (!command.subcommands.empty()) text += "\nSubcommands:\n";
+  for (const auto& [words, summary] : command.subcommands) text += help_entry(words, summary);
   if (!command.positionals.empty()) text += "\nArguments:\n";
-  for (const Argument& a : command.positionals) text += help_entry(a.name, a);
+  for (const Argument& a : command.positionals) text += help_entry(a.name, full_help(a));
   text += "\nOptions:\n";
-  for (const Argument& a : command.options) text += help_entry(option_head(a), a);
-  text += help_entry(option_head(kHelp), kHelp) + help_entry(option_head(kVersion), kVersion);
+  for (const Argument& a : command.options) text += help_entry(option_head(a), full_help(a));
+  for (const Argument* a : {&kHelp, &kVersion}) text += help_entry(option_head(*a), a->help);
   if (!command.example.empty()) text += "\nExample:\n" + indented(command.example);
   if (!command.exit_codes.empty()) text += "\nExit code:\n" + indented(command.exit_codes);
   return text;
@@ -406,6 +415,8 @@ std::string man_page(const Command& command) {
     text += (first ? "" : ".PP\n") + roff(paragraph) + "\n";
     first = false;
   }
+  for (const auto& [words, summary] : command.subcommands)
+    text += ".TP\n.B " + roff(words) + "\n" + roff(summary) + "\n";
   for (const Argument& a : command.positionals) text += man_entry(a.name, a);
   text += ".SH OPTIONS\n";
   for (const Argument& a : command.options) text += man_entry(option_head(a), a);

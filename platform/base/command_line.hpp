@@ -17,6 +17,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "platform/base/result.hpp"
@@ -49,17 +50,18 @@ struct Command {
   std::string description = "";  // paragraphs, an empty line between them
   std::vector<Argument> options = {};
   std::vector<Argument> positionals = {};
-  std::string example = "";     // lines that can be typed
-  std::string exit_codes = "";  // "0  found\n1  not found"
-  std::string see_also = "";    // "gannet(1), gannet.toml(5)"
-  int section = 1;              // of the manual
+  std::vector<std::pair<std::string, std::string>> subcommands = {};  // words, summary
+  std::string example = "";                                           // lines that can be typed
+  std::string exit_codes = "";                                        // "0  found\n1  not found"
+  std::string see_also = "";                                          // "gannet(1), gannet.toml(5)"
+  int section = 1;                                                    // of the manual
 };
 
 // What was given, or the presets. Asking for a name that the table does not have is a bug.
 class Arguments {
  public:
   bool knows(std::string_view name) const { return given_.count(name) > 0; }  // in the table
-  bool given(std::string_view name) const;  // typed by the person
+  bool given(std::string_view name) const;                                    // typed by the person
   bool flag(std::string_view name) const { return given(name); }
   std::string text(std::string_view name) const;                // "" if absent and without preset
   std::vector<std::string> texts(std::string_view name) const;  // in order, of one that repeats

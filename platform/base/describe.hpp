@@ -4,8 +4,8 @@
 //
 //   void describe(Visitor& v, SearchConfig& c) {
 //     v.field("population", c.population, {.min = 4, .max = 4096, .help = "Individuals kept."});
-//     v.field("optimiser", c.optimiser, {.choices = {"rm_ga", "gannet"}, .help = "Search method."});
-//     v.group("rm_ga", c.rm_ga, "The genetic algorithm as published.");
+//     v.field("optimiser", c.optimiser, {.choices = {"rm_ga", "gannet"}, .help = "Search
+//     method."}); v.group("rm_ga", c.rm_ga, "The genetic algorithm as published.");
 //     v.list("thruster", c.thrusters, "One table for each thruster.");
 //   }
 //

@@ -67,20 +67,14 @@ class LeasePool {
     return Lease(this, slot);
   }
   // Whether the slot is home. Acquire: what its last holder read is done.
-  bool is_free(int slot) const {
-    return (free_.load(std::memory_order_acquire) >> slot & 1) != 0;
-  }
+  bool is_free(int slot) const { return (free_.load(std::memory_order_acquire) >> slot & 1) != 0; }
 
   int slots() const { return slots_; }
-  int free_count() const {
-    return __builtin_popcountll(free_.load(std::memory_order_relaxed));
-  }
+  int free_count() const { return __builtin_popcountll(free_.load(std::memory_order_relaxed)); }
 
  private:
   friend class Lease;
-  void come_home(int slot) {
-    free_.fetch_or(std::uint64_t{1} << slot, std::memory_order_release);
-  }
+  void come_home(int slot) { free_.fetch_or(std::uint64_t{1} << slot, std::memory_order_release); }
   std::atomic<std::uint64_t> free_;
   const int slots_;
 };

@@ -33,8 +33,7 @@ struct Transform {
 
 template <class A, class B, class C>
 Transform<A, C> operator*(const Transform<A, B>& a_from_b, const Transform<B, C>& b_from_c) {
-  return {(a_from_b.rotation * b_from_c.rotation).normalized(),
-          a_from_b(b_from_c.translation)};
+  return {(a_from_b.rotation * b_from_c.rotation).normalized(), a_from_b(b_from_c.translation)};
 }
 
 // The unit quaternion of the same rotation with scalar part >= 0.

@@ -7,8 +7,9 @@ namespace gannet::search {
 namespace {
 
 constexpr int kScanBatch = 256;
-constexpr int kPlaces = 192;            // of the scan that are remembered
+constexpr int kPlaces = 192;  // of the scan that are remembered
 constexpr int kFewestGenerations = 3;
+constexpr int kFewestIslands = 3;  // that go on: a coarse level may mistake two peaks
 
 // Steps of the R-sequence in d dimensions (M. Roberts, 2018): powers of the inverse of the root of
 // x^(d+1) = x + 1, which spreads points evenly for any number of them.
@@ -30,8 +31,8 @@ int island_capacity(const GannetSearchConfig& config) { return config.islands + 
 }  // namespace
 
 GannetSearch::GannetSearch(int dimension, const GannetSearchConfig& config, std::uint64_t seed)
-    : GenerationalOptimiser(
-          std::max(kScanBatch, island_capacity(config) * config.population), dimension),
+    : GenerationalOptimiser(std::max(kScanBatch, island_capacity(config) * config.population),
+                            dimension),
       config_(config),
       steps_(static_cast<std::size_t>(island_capacity(config) * config.population)) {
   places_.reserve(kPlaces + 1);
@@ -47,15 +48,15 @@ void GannetSearch::plan(double evaluations, std::span<const double> cost) {
   scan_wanted_ =
       std::max(kScanBatch, static_cast<int>(config_.scan_share * evaluations / cost[coarsest]));
   const double scale = std::min(1.0, evaluations / std::max(config_.evaluations_small, 1.0));
-  islands_wanted_ = std::max(std::min(4, config_.islands),
-                             static_cast<int>(config_.islands * scale));
+  islands_wanted_ =
+      std::max(std::min(4, config_.islands), static_cast<int>(config_.islands * scale));
   const double level_budget = (1 - config_.scan_share) * evaluations / levels_;
   double islands = islands_wanted_ + 1;
   for (std::size_t l = coarsest + 1; l-- > 0;) {
     generations_[l] = std::max(
         kFewestGenerations,
         static_cast<int>(level_budget / (cost[l] * std::ceil(islands) * config_.population)));
-    islands = std::max(1.0, islands * config_.island_share);
+    islands = std::max<double>(kFewestIslands, islands * config_.island_share);
   }
 }
 
@@ -118,9 +119,9 @@ void GannetSearch::keep(std::span<const float> genes, float score) {
   if (places_.size() == kPlaces && score <= places_.back().score) return;
   Place place = {{}, score};
   copy(genes, place.genes);
-  const auto at = std::upper_bound(
-      places_.begin(), places_.end(), score,
-      [](float value, const Place& other) { return value > other.score; });
+  const auto at =
+      std::upper_bound(places_.begin(), places_.end(), score,
+                       [](float value, const Place& other) { return value > other.score; });
   places_.insert(at, place);
   if (places_.size() > kPlaces) places_.pop_back();
 }
@@ -153,8 +154,9 @@ void GannetSearch::found_islands() {
   std::size_t count = 0;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (count == static_cast<std::size_t>(islands_wanted_)) break;
-    const bool is_new = std::all_of(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(count),
-                                    [&](std::size_t k) { return apart(places_[i], places_[k]); });
+    const bool is_new =
+        std::all_of(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(count),
+                    [&](std::size_t k) { return apart(places_[i], places_[k]); });
     if (!is_new) continue;
     chosen[count++] = i;
     add({places_[i].genes.data(), n}, config_.sigma_scan, false);
@@ -210,13 +212,35 @@ void GannetSearch::learn_generation() {
   enter_level(level_ - 1);
 }
 
+// Keeps the best share of the islands, but of those that have climbed the same peak only the best:
+// a false peak that looks high on a coarse level would otherwise crowd out the true one.
 void GannetSearch::drop_islands() {
   std::sort(islands_.begin(), islands_.end(), [](const Island& a, const Island& b) {
     return a.hinted != b.hinted ? a.hinted : a.score > b.score;
   });
-  const double kept = static_cast<double>(islands_.size()) * config_.island_share;
-  const auto n = std::max<std::size_t>(has_hint_ ? 2 : 1, static_cast<std::size_t>(std::ceil(kept)));
-  if (islands_.size() > n) islands_.erase(islands_.begin() + static_cast<std::ptrdiff_t>(n), islands_.end());
+  const double share = static_cast<double>(islands_.size()) * config_.island_share;
+  const auto wanted =
+      std::max<std::size_t>(kFewestIslands, static_cast<std::size_t>(std::ceil(share)));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < islands_.size() && kept < wanted; ++i) {
+    const auto same_peak = [&](const Island& other) {
+      return distance(islands_[i].distribution.mean(), other.distribution.mean()) <
+             0.5 * config_.apart;
+    };
+    const auto end = islands_.begin() + static_cast<std::ptrdiff_t>(kept);
+    if (std::any_of(islands_.begin(), end, same_peak)) continue;
+    if (kept != i) islands_[kept] = islands_[i];
+    ++kept;
+  }
+  islands_.erase(islands_.begin() + static_cast<std::ptrdiff_t>(kept), islands_.end());
+}
+
+double GannetSearch::distance(const SmallVector& a, const SmallVector& b) const {
+  double square = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(dimension()); ++i) {
+    square += (a[i] - b[i]) * (a[i] - b[i]);
+  }
+  return std::sqrt(square);
 }
 
 }  // namespace gannet::search

@@ -45,6 +45,7 @@ class GannetSearch final : public GenerationalOptimiser {
   void propose_generation();
   void learn_generation();
   void drop_islands();
+  double distance(const SmallVector& a, const SmallVector& b) const;
   SmallVector to_vector(std::span<const float> genes) const;
 
   const GannetSearchConfig config_;
@@ -59,7 +60,7 @@ class GannetSearch final : public GenerationalOptimiser {
   int scan_done_ = 0;
   std::array<std::uint64_t, kMaxDimension> sequence_ = {};  // of the scan, 64-bit fractions
   std::array<std::uint64_t, kMaxDimension> sequence_step_ = {};
-  std::vector<Place> places_;                               // best of the scan, best first
+  std::vector<Place> places_;  // best of the scan, best first
   std::vector<Island> islands_;
   int generations_left_ = 0;
   bool scanning_ = true;

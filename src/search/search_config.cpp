@@ -97,10 +97,11 @@ void describe(Visitor& v, CmaEsConfig& c) {
 
 void describe(Visitor& v, GannetSearchConfig& c) {
   v.field("scan_share", c.scan_share,
-          {.min = 0.01, .max = 0.9, .help = "Share of a frame's evaluations that goes into the "
-                                            "coarse scan of the whole search volume."});
-  v.field("islands", c.islands,
-          {.min = 1, .max = 64, .help = "Hypotheses that leave the scan."});
+          {.min = 0.01,
+           .max = 0.9,
+           .help = "Share of a frame's evaluations that goes into the "
+                   "coarse scan of the whole search volume."});
+  v.field("islands", c.islands, {.min = 1, .max = 64, .help = "Hypotheses that leave the scan."});
   v.field("island_share", c.island_share,
           {.min = 0.05, .max = 1, .help = "Share of them that goes on to the next finer level."});
   v.field("population", c.population,
@@ -110,11 +111,15 @@ void describe(Visitor& v, GannetSearchConfig& c) {
   v.field("sigma_hint", c.sigma_hint,
           {.min = 0.001, .max = 1, .help = "First step of the hypothesis at the prediction."});
   v.field("apart", c.apart,
-          {.min = 0, .max = 1, .help = "Least distance of two hypotheses from the scan, as a "
-                                       "share of the genes' ranges."});
+          {.min = 0,
+           .max = 1,
+           .help = "Least distance of two hypotheses from the scan, as a "
+                   "share of the genes' ranges."});
   v.field("evaluations_small", c.evaluations_small,
-          {.min = 0, .max = 1e6, .help = "Budgets below this have proportionally fewer "
-                                         "hypotheses."});
+          {.min = 0,
+           .max = 1e6,
+           .help = "Budgets below this have proportionally fewer "
+                   "hypotheses."});
 }
 
 void describe(Visitor& v, SearchConfig& c) {

@@ -58,13 +58,13 @@ struct CmaEsConfig {
 // Our default: a quasi-random scan on the coarsest level, then several hypotheses that shrink in
 // number as the levels grow finer, each a CMA-ES of its own.
 struct GannetSearchConfig {
-  double scan_share = 0.25;      // of the frame's evaluations
-  int islands = 24;              // hypotheses that leave the scan
-  double island_share = 0.4;     // of the islands that go on to the next finer level
-  int population = 10;           // samples of an island's generation
-  double sigma_scan = 0.08;      // first step of an island from the scan
-  double sigma_hint = 0.03;      // and of the one at the hint
-  double apart = 0.15;           // least distance of two islands from the scan
+  double scan_share = 0.25;         // of the frame's evaluations
+  int islands = 24;                 // hypotheses that leave the scan
+  double island_share = 0.4;        // of the islands that go on to the next finer level
+  int population = 10;              // samples of an island's generation
+  double sigma_scan = 0.08;         // first step of an island from the scan
+  double sigma_hint = 0.03;         // and of the one at the hint
+  double apart = 0.15;              // least distance of two islands from the scan
   double evaluations_small = 6000;  // below this budget the number of islands shrinks with it
 };
 

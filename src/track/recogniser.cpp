@@ -13,10 +13,10 @@
 namespace gannet::track {
 namespace {
 
-constexpr int kBatch = 512;      // candidates a round
-constexpr int kChunk = 16;       // of them a piece of parallel work
-constexpr double kLeastSizePx = 9;    // of the target on a coarse level, √area
-constexpr double kSpacingPx = 1.8;    // of a coarse level's points, in that level's pixels
+constexpr int kBatch = 512;         // candidates a round
+constexpr int kChunk = 16;          // of them a piece of parallel work
+constexpr double kLeastSizePx = 9;  // of the target on a coarse level, √area
+constexpr double kSpacingPx = 1.8;  // of a coarse level's points, in that level's pixels
 constexpr double kRectanglePoints = 1500;
 
 double radians(double degrees) { return degrees * 3.14159265358979323846 / 180; }
@@ -58,13 +58,11 @@ Result<std::unique_ptr<Recogniser>> Recogniser::create(const TrackConfig& config
     return Error{"the search range in z must be positive and increasing"};
   }
   std::unique_ptr<Recogniser> made(new Recogniser(config, rig, kind, max_workers));
-  auto fitness =
-      vision::make_fitness(config.fitness, kind == TargetKind::kRectangle, rig, *chosen);
+  auto fitness = vision::make_fitness(config.fitness, kind == TargetKind::kRectangle, rig, *chosen);
   if (!fitness) return fitness.error();
   made->fitness_ = std::move(*fitness);
-  auto optimiser =
-      search::make_optimiser(config.optimiser, made->space_.dimension(), config.search,
-                             static_cast<std::uint64_t>(config.seed));
+  auto optimiser = search::make_optimiser(config.optimiser, made->space_.dimension(), config.search,
+                                          static_cast<std::uint64_t>(config.seed));
   if (!optimiser) return optimiser.error();
   made->optimiser_ = std::move(*optimiser);
   return made;
@@ -86,8 +84,8 @@ bool Recogniser::assign_levels(double projected_size_px, double spacing_px) {
   for (int l = 0; l < target_.levels; ++l) {
     const double factor = l == 0 ? 1 : std::max(1.0, kSpacingPx * (1 << l) / spacing_px);
     vision::coarsen(points_, spacing_, factor, coarse_);
-    target_.level[static_cast<std::size_t>(l)].assign(coarse_, background_,
-                                                      target_.background_hue, target_.unscaled);
+    target_.level[static_cast<std::size_t>(l)].assign(coarse_, background_, target_.background_hue,
+                                                      target_.unscaled);
   }
   std::array<double, vision::kLevels> cost = {};
   const int levels = fitness_->levels(target_);
@@ -117,12 +115,11 @@ bool Recogniser::set_rectangle(const vision::Rectangle& r, const vision::Prepare
   return true;
 }
 
-bool Recogniser::refresh_rectangle(const vision::Rectangle& r,
-                                   const vision::PreparedFrame& frame) {
+bool Recogniser::refresh_rectangle(const vision::Rectangle& r, const vision::PreparedFrame& frame) {
   const vision::EyePlanes& eye = frame.left();
-  const bool fits = r.width >= 8 && r.height >= 8 && r.x >= 0 && r.y >= 0 &&
-                    r.width <= eye.width && r.height <= eye.height &&
-                    r.x <= eye.width - r.width && r.y <= eye.height - r.height;
+  const bool fits = r.width >= 8 && r.height >= 8 && r.x >= 0 && r.y >= 0 && r.width <= eye.width &&
+                    r.height <= eye.height && r.x <= eye.width - r.width &&
+                    r.y <= eye.height - r.height;
   if (!fits || kind_ != TargetKind::kRectangle) return false;
   rectangle_ = r;
   const double area = static_cast<double>(r.width) * r.height;
@@ -140,15 +137,16 @@ bool Recogniser::refresh_rectangle(const vision::Rectangle& r,
     for (int y = r.y + step / 2 - margin / step * step; y < r.y + r.height + margin; y += step) {
       for (int x = r.x + step / 2 - margin / step * step; x < r.x + r.width + margin; x += step) {
         if (x < 0 || y < 0 || x >= eye.width || y >= eye.height) continue;
-        const bool in_rectangle =
-            x >= r.x && y >= r.y && x < r.x + r.width && y < r.y + r.height;
+        const bool in_rectangle = x >= r.x && y >= r.y && x < r.x + r.width && y < r.y + r.height;
         if (in_rectangle != inside || points_.size() >= points_.capacity()) continue;
         const Eigen::Vector3d ray = rig_.left.ray({x, y});
         const auto at = static_cast<std::size_t>(y * eye.width + x);
-        points_.push_back({static_cast<float>(ray.x()), static_cast<float>(ray.y()), inside,
-                           {static_cast<float>(eye.smooth[0][at]),
-                            static_cast<float>(eye.smooth[1][at]),
-                            static_cast<float>(eye.smooth[2][at])}});
+        points_.push_back(
+            {static_cast<float>(ray.x()),
+             static_cast<float>(ray.y()),
+             inside,
+             {static_cast<float>(eye.smooth[0][at]), static_cast<float>(eye.smooth[1][at]),
+              static_cast<float>(eye.smooth[2][at])}});
       }
     }
   }
@@ -178,8 +176,8 @@ float Recogniser::best_rival(const vision::Hypothesis& answer) const {
     const double dx = r.translation[0] - answer.translation[0];
     const double dy = r.translation[1] - answer.translation[1];
     const double dz = std::abs(r.translation[2] - answer.translation[2]);
-    const bool elsewhere = target_.unscaled ? dz > 0.15 * answer.translation[2]
-                                            : dx * dx + dy * dy > apart * apart;
+    const bool elsewhere =
+        target_.unscaled ? dz > 0.15 * answer.translation[2] : dx * dx + dy * dy > apart * apart;
     if (elsewhere) best = std::max(best, r.score);
   }
   return best;
@@ -193,9 +191,9 @@ void Recogniser::score_batch(const vision::PreparedFrame& frame, int level, int 
     const auto count = static_cast<std::size_t>(std::min(kChunk, n - first));
     const auto at = static_cast<std::size_t>(first);
     for (std::size_t i = 0; i < count; ++i) {
-      hypotheses_[at + i] = space_.decode(
-          {genes_.data() + (at + i) * static_cast<std::size_t>(dimension),
-           static_cast<std::size_t>(dimension)});
+      hypotheses_[at + i] =
+          space_.decode({genes_.data() + (at + i) * static_cast<std::size_t>(dimension),
+                         static_cast<std::size_t>(dimension)});
     }
     fitness_->score(target_, frame, level, {hypotheses_.data() + at, count},
                     {scores_.data() + at, count}, scratch_[static_cast<std::size_t>(worker)]);
@@ -203,8 +201,8 @@ void Recogniser::score_batch(const vision::PreparedFrame& frame, int level, int 
 }
 
 Recognition Recogniser::recognise(const vision::PreparedFrame& frame,
-                                  const Transform<LeftCamera, Target>* hint,
-                                  const Budget& budget, Parallel& parallel) {
+                                  const Transform<LeftCamera, Target>* hint, const Budget& budget,
+                                  Parallel& parallel) {
   Recognition none;
   none.reason = TrackReason::kNoTarget;
   if (!has_target_) return none;
@@ -247,9 +245,8 @@ double Recogniser::found_threshold() const {
   return config_.found_votes * (2.0 * set.inside + 0.1 * set.outside) / set.points();
 }
 
-Recognition Recogniser::finish(const vision::PreparedFrame& frame,
-                               const vision::Hypothesis& best, float best_score,
-                               double evaluations) {
+Recognition Recogniser::finish(const vision::PreparedFrame& frame, const vision::Hypothesis& best,
+                               float best_score, double evaluations) {
   Recognition out;
   out.left_from_target = best.pose();
   out.fitness = static_cast<double>(best_score);
@@ -259,13 +256,13 @@ Recognition Recogniser::finish(const vision::PreparedFrame& frame,
   if (target_.unscaled) {
     // The same plane, with the smallest rotation to its normal.
     const Eigen::Vector3d normal = out.left_from_target.rotation * Eigen::Vector3d::UnitZ();
-    out.left_from_target = vision::pose_of_plane(
-        normal / normal.dot(out.left_from_target.translation), centre_ray_);
+    out.left_from_target =
+        vision::pose_of_plane(normal / normal.dot(out.left_from_target.translation), centre_ray_);
   }
   const vision::Refinement refined =
-      target_.unscaled ? vision::refine_plane(rig_, points, frame, out.left_from_target,
-                                              centre_ray_, options)
-                       : vision::refine_pose(rig_, points, frame, out.left_from_target, options);
+      target_.unscaled
+          ? vision::refine_plane(rig_, points, frame, out.left_from_target, centre_ray_, options)
+          : vision::refine_pose(rig_, points, frame, out.left_from_target, options);
   bool has_covariance = refined.ok;
   if (refined.ok) {
     const vision::Hypothesis candidate = vision::Hypothesis::from(refined.left_from_target);

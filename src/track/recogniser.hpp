@@ -25,9 +25,8 @@ enum class TargetKind { kModel, kRectangle };
 class Recogniser {
  public:
   // kernels: "auto" or a name of kernel_choice.hpp. max_workers: of the Parallel that will be used.
-  static Result<std::unique_ptr<Recogniser>> create(const TrackConfig& config,
-                                                    const StereoRig& rig, TargetKind kind,
-                                                    int max_workers = 1,
+  static Result<std::unique_ptr<Recogniser>> create(const TrackConfig& config, const StereoRig& rig,
+                                                    TargetKind kind, int max_workers = 1,
                                                     std::string_view kernels = "auto");
 
   vision::PlaneNeeds needs() const;

@@ -27,7 +27,7 @@ struct SearchVolume {
 // When to stop. stop, if given, is asked between rounds and may say that a deadline or a newer
 // frame has come; replay leaves it null and is exact.
 struct Budget {
-  double evaluations = 0;            // full stereo evaluations; 0: the configured default
+  double evaluations = 0;  // full stereo evaluations; 0: the configured default
   bool (*stop)(void* context) = nullptr;
   void* context = nullptr;
 };

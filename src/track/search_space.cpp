@@ -96,9 +96,15 @@ vision::Hypothesis SearchSpace::decode(std::span<const float> genes) const {
   }
   const auto [sz, cz] = sine_cosine(across(g(5), -roll_, roll_));
   q.translation = {across(g(0), x_.low(z), x_.high(z)), across(g(1), y_.low(z), y_.high(z)), z};
-  q.rotation = {cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx,
-                sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx,
-                -sy,     cy * sx,                cy * cx};
+  q.rotation = {cz * cy,
+                cz * sy * sx - sz * cx,
+                cz * sy * cx + sz * sx,
+                sz * cy,
+                sz * sy * sx + cz * cx,
+                sz * sy * cx - cz * sx,
+                -sy,
+                cy * sx,
+                cy * cx};
   return q;
 }
 

@@ -223,8 +223,8 @@ Result<std::unique_ptr<TargetTracker>> TargetTracker::create(
                    " are possible: lower track.model_points"};
     }
   }
-  return std::unique_ptr<TargetTracker>(
-      new Tracker(config, rig, std::move(models), std::move(*for_models), std::move(*for_rectangles)));
+  return std::unique_ptr<TargetTracker>(new Tracker(
+      config, rig, std::move(models), std::move(*for_models), std::move(*for_rectangles)));
 }
 
 }  // namespace gannet::track

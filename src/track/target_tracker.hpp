@@ -10,8 +10,8 @@
 
 #include "hal/camera/image_view.hpp"
 #include "platform/base/describe.hpp"
-#include "platform/base/result.hpp"
 #include "platform/base/parallel.hpp"
+#include "platform/base/result.hpp"
 #include "src/core/pose_estimate.hpp"
 #include "src/core/stereo_rig.hpp"
 #include "src/track/recognition.hpp"

@@ -11,27 +11,32 @@ void describe(Visitor& v, TrackConfig& c) {
           {.choices = {"gannet", "rm_ga", "differential_evolution", "cma_es"},
            .help = "How poses are searched."});
   v.field("evaluations", c.evaluations,
-          {.min = 10, .max = 10000000,
+          {.min = 10,
+           .max = 10000000,
            .help = "Full stereo evaluations of one frame when the pose is not known."});
-  v.field("evaluations_tracking", c.evaluations_tracking,
-          {.min = 10, .max = 10000000,
-           .help = "Full stereo evaluations of one frame while locked."});
+  v.field(
+      "evaluations_tracking", c.evaluations_tracking,
+      {.min = 10, .max = 10000000, .help = "Full stereo evaluations of one frame while locked."});
   v.field("seed", c.seed, {.min = 0, .max = 2147483647, .help = "Of the search's random numbers."});
   v.field("model_points", c.model_points,
           {.min = 32, .max = 2000, .help = "Wanted points on a model's target (S_in)."});
   v.field("found_fitness", c.found_fitness,
-          {.min = 0, .max = 2,
+          {.min = 0,
+           .max = 2,
            .help = "Least correlation, plus lead over the best place elsewhere, that counts as "
                    "found."});
   v.field("found_votes", c.found_votes,
-          {.min = 0, .max = 1,
+          {.min = 0,
+           .max = 1,
            .help = "The same for the papers' votes, as a share of a perfect score."});
   v.field("z_min_m", c.z_min_m,
           {.min = 0.01, .max = 1000, .unit = "m", .help = "Nearest depth that is searched."});
   v.field("z_max_m", c.z_max_m,
           {.min = 0.01, .max = 1000, .unit = "m", .help = "Farthest depth that is searched."});
   v.field("half_width_x_m", c.half_width_x_m,
-          {.min = 0, .max = 1000, .unit = "m",
+          {.min = 0,
+           .max = 1000,
+           .unit = "m",
            .help = "Half-width of the search about the midpoint between the optical axes; 0: the "
                    "common field of view."});
   v.field("half_width_y_m", c.half_width_y_m,
@@ -41,12 +46,16 @@ void describe(Visitor& v, TrackConfig& c) {
   v.field("roll_deg", c.roll_deg,
           {.min = 0, .max = 180, .unit = "deg", .help = "Largest |θz| that is searched."});
   v.field("coast_s", c.coast_s,
-          {.min = 0, .max = 10, .unit = "s",
+          {.min = 0,
+           .max = 10,
+           .unit = "s",
            .help = "How long an unseen target coasts before it is lost."});
   v.field("lock_frames", c.lock_frames,
           {.min = 1, .max = 100, .help = "Consecutive finds before the target is locked."});
   v.field("jump_m", c.jump_m,
-          {.min = 0.001, .max = 100, .unit = "m",
+          {.min = 0.001,
+           .max = 100,
+           .unit = "m",
            .help = "A find farther than this from the prediction is doubted until it has been "
                    "repeated lock_frames times."});
 }

@@ -9,26 +9,26 @@
 namespace gannet::track {
 
 struct TrackConfig {
-  std::string fitness = "gannet";      // p001 | p002 | p000 | gannet
-  std::string optimiser = "gannet";    // rm_ga | differential_evolution | cma_es | gannet
-  int evaluations = 20000;             // full stereo evaluations from nothing
-  int evaluations_tracking = 2000;     // while locked
+  std::string fitness = "gannet";    // p001 | p002 | p000 | gannet
+  std::string optimiser = "gannet";  // rm_ga | differential_evolution | cma_es | gannet
+  int evaluations = 20000;           // full stereo evaluations from nothing
+  int evaluations_tracking = 2000;   // while locked
   int seed = 1;
-  int model_points = 800;              // wanted S_in points of a model
+  int model_points = 800;  // wanted S_in points of a model
   // Least correlation plus lead over the best place elsewhere that counts as found: true poses
   // of textured creatures gave 0.6 and more, the best wrong ones 0.5 and less.
   double found_fitness = 0.55;
-  double found_votes = 0.3;            // for vote fitnesses: least share of a perfect score
+  double found_votes = 0.3;  // for vote fitnesses: least share of a perfect score
   double z_min_m = 0.4;
   double z_max_m = 1.0;
-  double half_width_x_m = 0;           // 0: the common field of view
+  double half_width_x_m = 0;  // 0: the common field of view
   double half_width_y_m = 0;
   double tilt_deg = 40;
   double roll_deg = 45;
-  double coast_s = 0.5;                // locked → coasting → lost after this long unseen
-  int lock_frames = 2;                 // consecutive finds before locked
-  double jump_m = 0.2;                 // farther from the prediction: doubted
-  search::SearchConfig search;         // described beside this one, as group "search"
+  double coast_s = 0.5;         // locked → coasting → lost after this long unseen
+  int lock_frames = 2;          // consecutive finds before locked
+  double jump_m = 0.2;          // farther from the prediction: doubted
+  search::SearchConfig search;  // described beside this one, as group "search"
 };
 
 void describe(Visitor& v, TrackConfig& c);

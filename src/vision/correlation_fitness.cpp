@@ -23,13 +23,11 @@ void CorrelationFitness::score(const TargetPoints& target, const PreparedFrame& 
     const Hypothesis& q = hypotheses[k];
     if (target.unscaled) {
       const PlaneView view = right_.ray_view(q, level, right.width, right.height, right.guard);
-      scores[k] =
-          static_cast<float>(eye_score(set, right_, frame.right(), level, view, scratch));
+      scores[k] = static_cast<float>(eye_score(set, right_, frame.right(), level, view, scratch));
       continue;
     }
-    const double a =
-        eye_score(set, left_, frame.left(), level,
-                  left_.view(q, level, left.width, left.height, left.guard), scratch);
+    const double a = eye_score(set, left_, frame.left(), level,
+                               left_.view(q, level, left.width, left.height, left.guard), scratch);
     const double b =
         eye_score(set, right_, frame.right(), level,
                   right_.view(q, level, right.width, right.height, right.guard), scratch);
@@ -60,12 +58,11 @@ double CorrelationFitness::mean_correlation(const CorrelationSums& s, int n, con
   double weights = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     // n² times the covariance and the variances, exact.
-    const auto cov = static_cast<double>(std::int64_t{n} * s.im[c] -
-                                         std::int64_t{s.i[c]} * s.m[c]);
-    const auto var_i = static_cast<double>(std::int64_t{n} * s.ii[c] -
-                                           std::int64_t{s.i[c]} * s.i[c]);
-    const auto var_m = static_cast<double>(std::int64_t{n} * s.mm[c] -
-                                           std::int64_t{s.m[c]} * s.m[c]);
+    const auto cov = static_cast<double>(std::int64_t{n} * s.im[c] - std::int64_t{s.i[c]} * s.m[c]);
+    const auto var_i =
+        static_cast<double>(std::int64_t{n} * s.ii[c] - std::int64_t{s.i[c]} * s.i[c]);
+    const auto var_m =
+        static_cast<double>(std::int64_t{n} * s.mm[c] - std::int64_t{s.m[c]} * s.m[c]);
     const double n2 = static_cast<double>(n) * n;
     const double floor = static_cast<double>(c == 0 ? options_.floor_y : options_.floor_uv);
     const double weight = static_cast<double>(c == 0 ? options_.weight_y : options_.weight_uv);
@@ -87,10 +84,9 @@ double CorrelationFitness::eye_score(const PointSet& set, const CameraModel& cam
   std::int32_t* index = scratch.index.data();
   const int split = set.inside_padded;
   const int rest = set.total_padded - split;
-  const int n_in =
-      camera.project(kernels_, set.x.data(), set.y.data(), split, view, level, index);
-  const int n_out = camera.project(kernels_, set.x.data() + split, set.y.data() + split, rest,
-                                   view, level, index + split);
+  const int n_in = camera.project(kernels_, set.x.data(), set.y.data(), split, view, level, index);
+  const int n_out = camera.project(kernels_, set.x.data() + split, set.y.data() + split, rest, view,
+                                   level, index + split);
   const double share = static_cast<double>(n_in + n_out) / set.points();
   if (share < static_cast<double>(options_.least_share)) return share - 1;
   const std::uint32_t* cells = eye.packed[static_cast<std::size_t>(level)].cells;

@@ -56,8 +56,10 @@ Result<std::unique_ptr<Fitness>> make_fitness(std::string_view name, bool unscal
     if (fits) fitting += (fitting.empty() ? "" : ", ") + std::string(kind.name);
   }
   const std::string what = unscaled ? "a rectangle" : "a model";
-  return Error{known ? "fitness \"" + std::string(name) + "\" cannot score " + what + "; those that can: " + fitting
-                     : "unknown fitness \"" + std::string(name) + "\"; for " + what + " there are " + fitting};
+  return Error{known ? "fitness \"" + std::string(name) + "\" cannot score " + what +
+                           "; those that can: " + fitting
+                     : "unknown fitness \"" + std::string(name) + "\"; for " + what +
+                           " there are " + fitting};
 }
 
 std::vector<std::string> fitness_names() {

@@ -12,9 +12,7 @@ struct RgbRise {
   double r, g, b;  // R − Y, G − Y, B − Y
 };
 
-RgbRise rise_of(double u, double v) {
-  return {1.402 * v, -0.344136 * u - 0.714136 * v, 1.772 * u};
-}
+RgbRise rise_of(double u, double v) { return {1.402 * v, -0.344136 * u - 0.714136 * v, 1.772 * u}; }
 
 double hue_steps(const RgbRise& c) {
   const double high = std::max({c.r, c.g, c.b});
@@ -43,8 +41,8 @@ HueValueTable::HueValueTable() {
       const RgbRise c = rise_of(u - 128, v - 128);
       const std::size_t i = at(static_cast<std::uint8_t>(u), static_cast<std::uint8_t>(v));
       hue_[i] = static_cast<std::uint8_t>(std::lround(hue_steps(c)) & 255);
-      rise_[i] = static_cast<std::uint8_t>(
-          std::min(255L, std::lround(std::max({c.r, c.g, c.b, 0.0}))));
+      rise_[i] =
+          static_cast<std::uint8_t>(std::min(255L, std::lround(std::max({c.r, c.g, c.b, 0.0}))));
     }
   }
 }

@@ -107,9 +107,9 @@ PlaneView CameraModel::view(const Hypothesis& q, int level, int width, int heigh
       g[k + col] = (r[k] * q.rotation[col] + r[k + 1] * q.rotation[3 + col]) +
                    r[k + 2] * q.rotation[6 + col];
     }
-    g[k + 2] = ((r[k] * q.translation[0] + r[k + 1] * q.translation[1]) +
-                r[k + 2] * q.translation[2]) +
-               translation_[row];
+    g[k + 2] =
+        ((r[k] * q.translation[0] + r[k + 1] * q.translation[1]) + r[k + 2] * q.translation[2]) +
+        translation_[row];
   }
   return finish(g, level, width, height, guard);
 }

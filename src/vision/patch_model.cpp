@@ -94,8 +94,9 @@ Result<Silhouette> silhouette_of(const PhotoInput& input, const YuvImage& photo,
   }
   const auto inside = std::count(out.mask.begin(), out.mask.end(), 255);
   if (out.mask.empty() || inside < 64) {
-    return problem(input.name, "no target was found: the silhouette is empty or smaller than 64 "
-                               "pixels; check mask or background");
+    return problem(input.name,
+                   "no target was found: the silhouette is empty or smaller than 64 "
+                   "pixels; check mask or background");
   }
   if (inside == static_cast<std::ptrdiff_t>(out.mask.size())) {
     return problem(input.name, "the mask covers the whole photo; it must leave some background");
@@ -150,9 +151,8 @@ Result<PhotoPatch> cut_out(const PhotoInput& input, const Intrinsics& camera) {
 Result<PatchModel> make_patch_model(const PhotoPatch& photo, const BuildOptions& options) {
   const double pixel_x = photo.distance_m / photo.fx;
   const double pixel_y = photo.distance_m / photo.fy;
-  const auto inside =
-      static_cast<double>(photo.mask.size()) -
-      static_cast<double>(std::count(photo.mask.begin(), photo.mask.end(), 0));
+  const auto inside = static_cast<double>(photo.mask.size()) -
+                      static_cast<double>(std::count(photo.mask.begin(), photo.mask.end(), 0));
   PatchModel model;
   model.name = photo.name;
   model.size_m = photo.size_m;
@@ -163,8 +163,8 @@ Result<PatchModel> make_patch_model(const PhotoPatch& photo, const BuildOptions&
   const YuvImage image = {photo.width, photo.height, photo.yuv};
   const int radius = std::max(0, static_cast<int>(model.spacing_m / pixel_x / 2));
   const YuvImage means = box_blurred(image, radius);
-  const double band = std::max(options.band * std::sqrt(inside * pixel_x * pixel_y),
-                               1.5 * model.spacing_m);
+  const double band =
+      std::max(options.band * std::sqrt(inside * pixel_x * pixel_y), 1.5 * model.spacing_m);
 
   std::vector<ModelPoint> out;
   const int columns = static_cast<int>(photo.width * pixel_x / model.spacing_m) + 1;
@@ -174,10 +174,10 @@ Result<PatchModel> make_patch_model(const PhotoPatch& photo, const BuildOptions&
       ModelPoint p;
       p.x_m = static_cast<float>((column + 0.5) * model.spacing_m);
       p.y_m = static_cast<float>((row + 0.5) * model.spacing_m);
-      const auto x = static_cast<int>(
-          std::lround(photo.centre_px.x() + static_cast<double>(p.x_m) / pixel_x));
-      const auto y = static_cast<int>(
-          std::lround(photo.centre_px.y() + static_cast<double>(p.y_m) / pixel_y));
+      const auto x =
+          static_cast<int>(std::lround(photo.centre_px.x() + static_cast<double>(p.x_m) / pixel_x));
+      const auto y =
+          static_cast<int>(std::lround(photo.centre_px.y() + static_cast<double>(p.y_m) / pixel_y));
       if (x < 0 || y < 0 || x >= photo.width || y >= photo.height) continue;
       p.inside = photo.mask[static_cast<std::size_t>(y * photo.width + x)] != 0;
       p.colour = colour_of(means.at(x, y));
@@ -186,13 +186,13 @@ Result<PatchModel> make_patch_model(const PhotoPatch& photo, const BuildOptions&
   }
   model.inside_count = static_cast<int>(model.points.size());
   if (model.inside_count < 16) {
-    return problem(photo.name, "the silhouette gives only " +
-                                   std::to_string(model.inside_count) + " points; 16 are needed");
+    return problem(photo.name, "the silhouette gives only " + std::to_string(model.inside_count) +
+                                   " points; 16 are needed");
   }
   for (const ModelPoint& p : out) {
     const auto near = [&](const ModelPoint& in) {
-      return std::hypot(static_cast<double>(in.x_m - p.x_m),
-                        static_cast<double>(in.y_m - p.y_m)) <= band;
+      return std::hypot(static_cast<double>(in.x_m - p.x_m), static_cast<double>(in.y_m - p.y_m)) <=
+             band;
     };
     if (std::any_of(model.points.begin(), model.points.begin() + model.inside_count, near)) {
       model.points.push_back(p);

@@ -16,8 +16,8 @@
 namespace gannet::vision {
 
 struct Yuv {
-  float y = 0;      // 0 … 255
-  float u = 128;    // centred on 128
+  float y = 0;    // 0 … 255
+  float u = 128;  // centred on 128
   float v = 128;
 };
 
@@ -42,19 +42,19 @@ struct PatchModel {
   double spacing_m = 0;                              // of the grid of points
   std::vector<ModelPoint> points;                    // S_in first
   int inside_count = 0;
-  Yuv background;                                    // mean of the background
-  std::uint8_t background_hue = 0;                   // chroma-weighted circular mean, 256 steps
+  Yuv background;                   // mean of the background
+  std::uint8_t background_hue = 0;  // chroma-weighted circular mean, 256 steps
 };
 
 // A photo of the target with its silhouette, as a model file holds it. Pixels are the crop's.
 struct PhotoPatch {
   std::string name;
-  int width = 0;                    // of the crop, pixels
+  int width = 0;  // of the crop, pixels
   int height = 0;
-  std::vector<std::uint8_t> yuv;    // width·height·3, full-range BT.601, interleaved Y U V
-  std::vector<std::uint8_t> mask;   // width·height, non-zero = S_in
-  double distance_m = 0;            // from the camera's centre to the target's plane, along z
-  double fx = 0;                    // of the camera that took it, pixels
+  std::vector<std::uint8_t> yuv;   // width·height·3, full-range BT.601, interleaved Y U V
+  std::vector<std::uint8_t> mask;  // width·height, non-zero = S_in
+  double distance_m = 0;           // from the camera's centre to the target's plane, along z
+  double fx = 0;                   // of the camera that took it, pixels
   double fy = 0;
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  // target's origin in the crop
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();
@@ -63,8 +63,8 @@ struct PhotoPatch {
 };
 
 struct BuildOptions {
-  int inside_points = 800;      // wanted number of S_in points; the grid's spacing follows
-  double band = 0.22;           // width of S_out as a share of √(area of S_in)
+  int inside_points = 800;  // wanted number of S_in points; the grid's spacing follows
+  double band = 0.22;       // width of S_out as a share of √(area of S_in)
 };
 
 // Samples the photo on a regular grid. Error: empty silhouette, too few points.

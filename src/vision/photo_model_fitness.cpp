@@ -7,8 +7,7 @@ double photo_model_votes(VoteRule rule, const VoteCounts& c) {
   const int background =
       rule == VoteRule::kP001 ? c.in_background : c.in_background + c.in_far_background;
   const double far = rule == VoteRule::kP001 ? -1.0 * c.in_far : 0.0;
-  return 2.0 * c.in_match + far - 0.005 * background + 0.1 * c.out_background -
-         0.5 * c.out_other;
+  return 2.0 * c.in_match + far - 0.005 * background + 0.1 * c.out_background - 0.5 * c.out_other;
 }
 
 PhotoModelFitness::PhotoModelFitness(const StereoRig& rig, const Kernels& kernels, VoteRule rule)
@@ -31,9 +30,8 @@ void PhotoModelFitness::score(const TargetPoints& target, const PreparedFrame& f
       std::int32_t* index = scratch.index.data();
       camera.project(kernels_, set.x.data(), set.y.data(), set.total_padded, view, 0, index);
       VoteCounts counts;
-      kernels_.vote(eye.hue_value, index, set.inside_padded,
-                    set.total_padded - set.inside_padded, guard, set.hue.data(),
-                    set.is_background.data(), target.background_hue, counts);
+      kernels_.vote(eye.hue_value, index, set.inside_padded, set.total_padded - set.inside_padded,
+                    guard, set.hue.data(), set.is_background.data(), target.background_hue, counts);
       votes += photo_model_votes(rule_, counts);
     }
     scores[k] = static_cast<float>(votes / (2.0 * set.points()));

@@ -12,19 +12,19 @@
 namespace gannet::vision {
 
 struct PointSet {
-  int inside = 0;          // S_in points
-  int outside = 0;         // S_out points
-  int inside_padded = 0;   // S_out starts here
+  int inside = 0;         // S_in points
+  int outside = 0;        // S_out points
+  int inside_padded = 0;  // S_out starts here
   int total_padded = 0;
 
-  std::vector<float> x;    // metres on the plane (or ray coordinates)
+  std::vector<float> x;  // metres on the plane (or ray coordinates)
   std::vector<float> y;
-  std::vector<Yuv> colour;                 // S_out: the background's mean
-  std::vector<std::uint8_t> hue;           // S_in
-  std::vector<std::uint8_t> is_background; // 0xFF where S_in's hue is near the background's
-  std::vector<std::uint16_t> hue_value;    // all points, their own
-  std::vector<std::int8_t> correlation;    // blocks of 16 bytes for four points
-  std::array<std::int32_t, 3> sum = {};    // Σ and Σ² of the correlation values per channel
+  std::vector<Yuv> colour;                  // S_out: the background's mean
+  std::vector<std::uint8_t> hue;            // S_in
+  std::vector<std::uint8_t> is_background;  // 0xFF where S_in's hue is near the background's
+  std::vector<std::uint16_t> hue_value;     // all points, their own
+  std::vector<std::int8_t> correlation;     // blocks of 16 bytes for four points
+  std::array<std::int32_t, 3> sum = {};     // Σ and Σ² of the correlation values per channel
   std::array<std::int32_t, 3> sum_squares = {};
   std::array<std::int32_t, 3> inside_sum = {};  // of S_in alone
   std::array<std::int32_t, 3> inside_squares = {};

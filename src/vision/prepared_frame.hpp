@@ -34,7 +34,7 @@ struct EyePlanes {
   std::array<PackedPlane, kLevels> packed;
   // Grey levels per step of the 7-bit cells, Y U V: the correlation's floors are in grey levels.
   std::array<float, 3> grey_per_step = {1, 1, 1};
-  const std::uint16_t* hue_value = nullptr;  // full size, guard behind the last cell
+  const std::uint16_t* hue_value = nullptr;        // full size, guard behind the last cell
   std::array<const std::uint8_t*, 3> smooth = {};  // Y U V at full size, σ ≈ 1 pixel
   int width = 0;
   int height = 0;

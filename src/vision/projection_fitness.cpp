@@ -8,8 +8,7 @@ double projection_votes(const ProjectionCounts& in, const ProjectionCounts& out,
                         int outside_points) {
   const double whole = 2.0 * inside_points + 0.1 * outside_points;
   const auto part = [whole](int in_match, int in_other, int out_match, int out_other) {
-    return std::max(
-        0.0, (2.0 * in_match - in_other + 0.1 * out_match - 1.0 * out_other) / whole);
+    return std::max(0.0, (2.0 * in_match - in_other + 0.1 * out_match - 1.0 * out_other) / whole);
   };
   const double hue = part(in.hue_match, in.hue_other, out.hue_match, out.hue_other);
   const double value = part(in.value_match, in.value_other, out.value_match, out.value_other);

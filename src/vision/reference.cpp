@@ -67,8 +67,7 @@ std::optional<Eigen::Vector2i> pixel_of(const StereoRig& rig, bool left_eye,
   } else {
     p = pose({x, y, 0});
   }
-  const auto pixel =
-      left_eye ? rig.left.project(p) : rig.right.project(rig.right_from_left(p));
+  const auto pixel = left_eye ? rig.left.project(p) : rig.right.project(rig.right_from_left(p));
   if (!pixel) return std::nullopt;
   const Intrinsics& camera = left_eye ? rig.left : rig.right;
   const Eigen::Vector2i whole(static_cast<int>(std::floor(pixel->x() + 0.5)),

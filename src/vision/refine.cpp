@@ -56,8 +56,7 @@ bool sample(const std::uint8_t* plane, int width, int height, const Vector2d& at
   };
   out.value = mix([](const std::uint8_t* q) { return static_cast<double>(*q); });
   out.gradient.x() = mix([](const std::uint8_t* q) { return 0.5 * (q[1] - q[-1]); });
-  out.gradient.y() =
-      mix([width](const std::uint8_t* q) { return 0.5 * (q[width] - q[-width]); });
+  out.gradient.y() = mix([width](const std::uint8_t* q) { return 0.5 * (q[width] - q[-width]); });
   return true;
 }
 
@@ -117,8 +116,7 @@ struct Problem {
 
   // One pass: point_of(i, point, by_parameter) gives a point in the left camera and its slope.
   template <class PointOf>
-  bool accumulate(PointOf&& point_of, Matrix<double, P, P>& hessian,
-                  Matrix<double, P, 1>& slope) {
+  bool accumulate(PointOf&& point_of, Matrix<double, P, P>& hessian, Matrix<double, P, 1>& slope) {
     std::array<ChannelSums<P>, 6> sums;
     const Eigen::Matrix3d right = rig.right_from_left.rotation.toRotationMatrix();
     for (int eye = both_eyes ? 0 : 1; eye < 2; ++eye) {
@@ -216,8 +214,8 @@ Refinement refine_pose(const StereoRig& rig, const PointSet& points, const Prepa
     if (k == options.iterations) break;
     // A step is at most a few pixels: further away the gradients say nothing.
     const double z = out.left_from_target.translation.z();
-    const double scale = std::min(1.0, std::min(0.02 * z / step.head<3>().norm(),
-                                                0.15 / step.tail<3>().norm()));
+    const double scale =
+        std::min(1.0, std::min(0.02 * z / step.head<3>().norm(), 0.15 / step.tail<3>().norm()));
     step *= scale;
     out.left_from_target.translation += step.head<3>();
     const Vector3d turn = step.tail<3>();
@@ -271,10 +269,9 @@ Refinement refine_plane(const StereoRig& rig, const PointSet& points, const Prep
     const double h = 1e-6 * plane.norm();
     const auto moved = pose_of_plane(plane + h * Vector3d::Unit(k), centre);
     by_plane.col(k).head<3>() = (moved.translation - out.left_from_target.translation) / h;
-    by_plane.col(k).tail<3>() =
-        rotation_vector_from_quaternion(moved.rotation *
-                                        out.left_from_target.rotation.conjugate()) /
-        h;
+    by_plane.col(k).tail<3>() = rotation_vector_from_quaternion(
+                                    moved.rotation * out.left_from_target.rotation.conjugate()) /
+                                h;
   }
   out.covariance = by_plane * covariance * by_plane.transpose();
   out.ok = true;

@@ -6,8 +6,8 @@
 namespace gannet::vision {
 namespace {
 
-constexpr int kSmooth = 2;         // pixels; takes the noise out of the differences
-constexpr double kStrong = 2.0;    // seeds of the target, in thresholds
+constexpr int kSmooth = 2;       // pixels; takes the noise out of the differences
+constexpr double kStrong = 2.0;  // seeds of the target, in thresholds
 
 // Difference of two pixels in grey levels; chroma counts more, so that a shadow counts less.
 double difference(const std::uint8_t* a, const std::uint8_t* b) {

@@ -15,8 +15,7 @@ YuvImage make(int width, int height) {
 }
 
 // Sliding mean along one direction; step is the distance of neighbours in bytes.
-void blur_line(const std::uint8_t* from, int n, std::ptrdiff_t step, int radius,
-               std::uint8_t* to) {
+void blur_line(const std::uint8_t* from, int n, std::ptrdiff_t step, int radius, std::uint8_t* to) {
   const auto at = [&](int i) { return static_cast<int>(from[std::clamp(i, 0, n - 1) * step]); };
   const int size = 2 * radius + 1;
   int sum = 0;
@@ -52,8 +51,8 @@ YuvImage undistorted(YuvImage image, const Intrinsics& camera) {
     for (int col = 0; col < out.width; ++col) {
       std::uint8_t* p = out.at(col, row);
       p[1] = p[2] = 128;
-      const auto pixel = camera.project(
-          {(col - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1});
+      const auto pixel =
+          camera.project({(col - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1});
       if (!pixel || pixel->x() < 0 || pixel->y() < 0 || pixel->x() > image.width - 1 ||
           pixel->y() > image.height - 1) {
         continue;

@@ -67,8 +67,12 @@ void unpack_row(const ImageView& image, int row, std::uint8_t* y, std::uint8_t* 
   const int width = image.width;
   const auto line = [&](int plane, int r) { return image.plane[plane] + r * image.stride[plane]; };
   switch (image.format) {
-    case PixelFormat::kYuyv: unpack_packed(line(0, row), width, 0, y, u, v); break;
-    case PixelFormat::kUyvy: unpack_packed(line(0, row), width, 1, y, u, v); break;
+    case PixelFormat::kYuyv:
+      unpack_packed(line(0, row), width, 0, y, u, v);
+      break;
+    case PixelFormat::kUyvy:
+      unpack_packed(line(0, row), width, 1, y, u, v);
+      break;
     case PixelFormat::kNv12:
       std::memcpy(y, line(0, row), static_cast<std::size_t>(width));
       widen_chroma(line(1, row / 2), 2, width, u);
@@ -87,7 +91,9 @@ void unpack_row(const ImageView& image, int row, std::uint8_t* y, std::uint8_t* 
       std::memcpy(u, line(1, row), static_cast<std::size_t>(width));
       std::memcpy(v, line(2, row), static_cast<std::size_t>(width));
       break;
-    case PixelFormat::kRgb24: unpack_rgb(line(0, row), width, y, u, v); return;
+    case PixelFormat::kRgb24:
+      unpack_rgb(line(0, row), width, y, u, v);
+      return;
   }
   if (image.range == ColourRange::kLimited) limited_to_full(width, y, u, v);
   if (image.matrix == ColourMatrix::kBt709) bt709_to_bt601(width, y, u, v);

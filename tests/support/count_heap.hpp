@@ -3,21 +3,7 @@
 // so.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define GANNET_COUNTS_HEAP 0
-#else
-#define GANNET_COUNTS_HEAP 1
-#endif
-
-namespace gannet::test {
-
-inline thread_local std::uint64_t heap_calls = 0;
-inline constexpr bool kCountsHeap = GANNET_COUNTS_HEAP == 1;
-
-}  // namespace gannet::test
+#include "tests/support/heap_calls.hpp"
 
 #if GANNET_COUNTS_HEAP
 extern "C" {

@@ -1,6 +1,7 @@
-// FlatScene: a smooth procedural texture on a plane in front of a smooth procedural background, seen
-// by a stereo rig: pictures with exactly known truth and no files, for the unit tests of vision and
-// track. Not the world's renderer: no light, no water, one ray a pixel of a band-limited texture.
+// FlatScene: a smooth procedural texture on a plane in front of a smooth procedural background,
+// seen by a stereo rig: pictures with exactly known truth and no files, for the unit tests of
+// vision and track. Not the world's renderer: no light, no water, one ray a pixel of a band-limited
+// texture.
 #pragma once
 
 #include <algorithm>

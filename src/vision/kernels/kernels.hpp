@@ -1,7 +1,7 @@
 // Kernels: the inner loops of recognition, one table of functions per instruction set. Every table
 // gives the same bits: sums are integers, addresses come from the same unfused float operations in
-// the same order with true division, range checks are made on the floats (docs/design/same-bits.md).
-// `scalar` is the truth; the others are variants of it. RT safe.
+// the same order with true division, range checks are made on the floats
+// (docs/design/same-bits.md). `scalar` is the truth; the others are variants of it. RT safe.
 //
 // Arrays of points are padded to a multiple of kLanes with NaN coordinates: a NaN fails every range
 // check, so padding lands on the guard cell like any point outside the image.
@@ -18,7 +18,7 @@ constexpr int padded(int n) { return (n + kLanes - 1) / kLanes * kLanes; }
 // pixels; with one they are normalised coordinates that the lens then moves.
 struct PlaneView {
   float h[9];
-  int width;   // pixels of the plane that is sampled
+  int width;  // pixels of the plane that is sampled
   int height;
   int stride;  // cells from one row to the next
   int guard;   // index of the cell that stands for "outside the image"
@@ -40,15 +40,15 @@ struct CorrelationSums {
   std::int32_t i[3];
   std::int32_t ii[3];
   std::int32_t im[3];
-  std::int32_t m[3];   // over the visible points only
+  std::int32_t m[3];  // over the visible points only
   std::int32_t mm[3];
 };
 
 // Votes of P001 Eq. 4–6 / P002 Eq. 4–6, counted as classes.
 struct VoteCounts {
-  std::int32_t in_match;       // S_in, image ~ model
-  std::int32_t in_far;         // S_in, image vs model >= 50 degrees (P001)
-  std::int32_t in_background;  // S_in, neither of the two (P002: not match), background ~ model
+  std::int32_t in_match;           // S_in, image ~ model
+  std::int32_t in_far;             // S_in, image vs model >= 50 degrees (P001)
+  std::int32_t in_background;      // S_in, neither of the two (P002: not match), background ~ model
   std::int32_t in_far_background;  // S_in, far and background ~ model: P002 counts them
   std::int32_t out_background;     // S_out, background ~ image
   std::int32_t out_other;          // S_out, the rest
@@ -72,8 +72,7 @@ struct Kernels {
   const char* name;
 
   // index[i] = cell that shows point i, or the guard. n is padded. Returns the points inside.
-  int (*project)(const float* x, const float* y, int n, const PlaneView& view,
-                 std::int32_t* index);
+  int (*project)(const float* x, const float* y, int n, const PlaneView& view, std::int32_t* index);
   int (*project_lens)(const float* x, const float* y, int n, const PlaneView& view,
                       const LensTable& lens, std::int32_t* index);
 

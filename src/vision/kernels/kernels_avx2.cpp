@@ -86,10 +86,10 @@ int project_lens(const float* x, const float* y, int n, const PlaneView& view,
     const __m256 factor = _mm256_add_ps(
         low, _mm256_mul_ps(_mm256_sub_ps(high, low), _mm256_sub_ps(s, _mm256_cvtepi32_ps(step))));
     const __m256 ab2 = _mm256_mul_ps(two, _mm256_mul_ps(a, b));
-    const __m256 da = _mm256_add_ps(
-        _mm256_mul_ps(p1, ab2), _mm256_mul_ps(p2, _mm256_add_ps(r2, _mm256_mul_ps(two, aa))));
-    const __m256 db = _mm256_add_ps(
-        _mm256_mul_ps(p1, _mm256_add_ps(r2, _mm256_mul_ps(two, bb))), _mm256_mul_ps(p2, ab2));
+    const __m256 da = _mm256_add_ps(_mm256_mul_ps(p1, ab2),
+                                    _mm256_mul_ps(p2, _mm256_add_ps(r2, _mm256_mul_ps(two, aa))));
+    const __m256 db = _mm256_add_ps(_mm256_mul_ps(p1, _mm256_add_ps(r2, _mm256_mul_ps(two, bb))),
+                                    _mm256_mul_ps(p2, ab2));
     const __m256 u = _mm256_add_ps(
         _mm256_mul_ps(_mm256_set1_ps(lens.fx), _mm256_add_ps(_mm256_mul_ps(a, factor), da)),
         _mm256_set1_ps(lens.cx));
@@ -129,11 +129,9 @@ void correlate_cells(const std::uint32_t* cells, const std::int32_t* index, int 
   __m256i i1 = _mm256_setzero_si256(), ii = i1, im = i1, m1 = i1, mm = i1;
   for (int i = 0; i < n; i += 8) {
     const __m256i at = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(index + i));
-    const __m256i raw =
-        _mm256_i32gather_epi32(reinterpret_cast<const int*>(cells), at, 4);
+    const __m256i raw = _mm256_i32gather_epi32(reinterpret_cast<const int*>(cells), at, 4);
     const __m256i pixel = _mm256_shuffle_epi8(raw, by_channel);
-    const __m256i expected =
-        _mm256_loadu_si256(reinterpret_cast<const __m256i*>(model + 4 * i));
+    const __m256i expected = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(model + 4 * i));
     // 7-bit values: no sum of two products leaves 16 bits.
     i1 = widen(i1, _mm256_maddubs_epi16(pixel, ones));
     ii = widen(ii, _mm256_maddubs_epi16(pixel, pixel));
@@ -217,8 +215,8 @@ void vote(const std::uint16_t* cells, const std::int32_t* index, int n_in, int n
     out_other = _mm256_sub_epi32(
         out_other, _mm256_andnot_si256(_mm256_or_si256(hidden, near), _mm256_set1_epi32(-1)));
   }
-  counts = {total(match),          total(far),            total(background),
-            total(far_background), total(out_background), total(out_other)};
+  counts = {total(match),          total(far),      total(background), total(far_background),
+            total(out_background), total(out_other)};
 }
 
 void compare(const std::uint16_t* cells, const std::int32_t* index, int n, int guard,
@@ -231,15 +229,15 @@ void compare(const std::uint16_t* cells, const std::int32_t* index, int n, int g
     const __m256i at = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(index + i));
     const __m256i hidden = _mm256_cmpeq_epi32(at, outside);
     const __m256i seen = gather_cells(cells, at);
-    const __m256i expected = _mm256_cvtepu16_epi32(
-        _mm_loadu_si128(reinterpret_cast<const __m128i*>(hue_value + i)));
-    const __m256i hue = not_above(
-        circular_distance(_mm256_and_si256(seen, low), _mm256_and_si256(expected, low)),
-        kHueNear20);
-    const __m256i value = not_above(
-        _mm256_abs_epi32(
-            _mm256_sub_epi32(_mm256_srli_epi32(seen, 8), _mm256_srli_epi32(expected, 8))),
-        kValueNear);
+    const __m256i expected =
+        _mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(hue_value + i)));
+    const __m256i hue =
+        not_above(circular_distance(_mm256_and_si256(seen, low), _mm256_and_si256(expected, low)),
+                  kHueNear20);
+    const __m256i value =
+        not_above(_mm256_abs_epi32(
+                      _mm256_sub_epi32(_mm256_srli_epi32(seen, 8), _mm256_srli_epi32(expected, 8))),
+                  kValueNear);
     visible = _mm256_sub_epi32(visible, _mm256_andnot_si256(hidden, _mm256_set1_epi32(-1)));
     hue_match = _mm256_sub_epi32(hue_match, _mm256_andnot_si256(hidden, hue));
     value_match = _mm256_sub_epi32(value_match, _mm256_andnot_si256(hidden, value));

@@ -20,9 +20,9 @@ struct View4 {
         guard(vdupq_n_s32(v.guard)) {}
 
   float32x4_t row(int k, float32x4_t x, float32x4_t y) const {
-    return vaddq_f32(vaddq_f32(vmulq_f32(vdupq_n_f32(view.h[k]), x),
-                               vmulq_f32(vdupq_n_f32(view.h[k + 1]), y)),
-                     vdupq_n_f32(view.h[k + 2]));
+    return vaddq_f32(
+        vaddq_f32(vmulq_f32(vdupq_n_f32(view.h[k]), x), vmulq_f32(vdupq_n_f32(view.h[k + 1]), y)),
+        vdupq_n_f32(view.h[k + 2]));
   }
 
   // Cells of four pixel positions; adds how many are inside.
@@ -35,8 +35,7 @@ struct View4 {
     uint32x4_t ok = vandq_u32(valid, vcgtq_f32(w, zero));
     ok = vandq_u32(ok, vandq_u32(vcgeq_f32(column, zero), vcltq_f32(column, width)));
     ok = vandq_u32(ok, vandq_u32(vcgeq_f32(line, zero), vcltq_f32(line, height)));
-    const int32x4_t cell =
-        vaddq_s32(vmulq_s32(vcvtq_s32_f32(line), stride), vcvtq_s32_f32(column));
+    const int32x4_t cell = vaddq_s32(vmulq_s32(vcvtq_s32_f32(line), stride), vcvtq_s32_f32(column));
     inside += static_cast<int>(vaddvq_u32(vshrq_n_u32(ok, 31)));
     return vbslq_s32(ok, cell, guard);
   }
@@ -80,24 +79,22 @@ int project_lens(const float* x, const float* y, int n, const PlaneView& view,
     const float32x4_t bb = vmulq_f32(b, b);
     const float32x4_t r2 = vaddq_f32(aa, bb);
     const uint32x4_t valid = vcleq_f32(r2, vdupq_n_f32(lens.r2_max));
-    const float32x4_t s = vreinterpretq_f32_u32(vandq_u32(
-        valid, vreinterpretq_u32_f32(vmulq_f32(r2, vdupq_n_f32(lens.scale)))));
+    const float32x4_t s = vreinterpretq_f32_u32(
+        vandq_u32(valid, vreinterpretq_u32_f32(vmulq_f32(r2, vdupq_n_f32(lens.scale)))));
     const int32x4_t step = vcvtq_s32_f32(s);
     const float32x4_t low = look_up(lens.factor, step);
     const float32x4_t high = look_up(lens.factor + 1, step);
-    const float32x4_t factor = vaddq_f32(
-        low, vmulq_f32(vsubq_f32(high, low), vsubq_f32(s, vcvtq_f32_s32(step))));
+    const float32x4_t factor =
+        vaddq_f32(low, vmulq_f32(vsubq_f32(high, low), vsubq_f32(s, vcvtq_f32_s32(step))));
     const float32x4_t ab2 = vmulq_f32(two, vmulq_f32(a, b));
     const float32x4_t da =
         vaddq_f32(vmulq_f32(p1, ab2), vmulq_f32(p2, vaddq_f32(r2, vmulq_f32(two, aa))));
     const float32x4_t db =
         vaddq_f32(vmulq_f32(p1, vaddq_f32(r2, vmulq_f32(two, bb))), vmulq_f32(p2, ab2));
-    const float32x4_t u =
-        vaddq_f32(vmulq_f32(vdupq_n_f32(lens.fx), vaddq_f32(vmulq_f32(a, factor), da)),
-                  vdupq_n_f32(lens.cx));
-    const float32x4_t v =
-        vaddq_f32(vmulq_f32(vdupq_n_f32(lens.fy), vaddq_f32(vmulq_f32(b, factor), db)),
-                  vdupq_n_f32(lens.cy));
+    const float32x4_t u = vaddq_f32(
+        vmulq_f32(vdupq_n_f32(lens.fx), vaddq_f32(vmulq_f32(a, factor), da)), vdupq_n_f32(lens.cx));
+    const float32x4_t v = vaddq_f32(
+        vmulq_f32(vdupq_n_f32(lens.fy), vaddq_f32(vmulq_f32(b, factor), db)), vdupq_n_f32(lens.cy));
     vst1q_s32(index + i, v4.cells(u, v, w, valid, inside));
   }
   return inside;
@@ -135,8 +132,7 @@ void correlate(const std::uint32_t* cells, const std::int32_t* index, int n,
     ii.add(pixel, pixel);
     im.add(pixel, expected);
     if (all_visible) continue;
-    const int8x16_t visible =
-        vreinterpretq_s8_s32(vdupq_laneq_s32(vreinterpretq_s32_s8(pixel), 3));
+    const int8x16_t visible = vreinterpretq_s8_s32(vdupq_laneq_s32(vreinterpretq_s32_s8(pixel), 3));
     const int8x16_t seen = vmulq_s8(expected, visible);
     m1.add(seen, ones);
     mm.add(seen, seen);
@@ -202,8 +198,8 @@ void vote(const std::uint16_t* cells, const std::int32_t* index, int n_in, int n
     out_background.add(vandq_u32(shown, near));
     out_other.add(vbicq_u32(shown, near));
   }
-  counts = {match.total(),          far.total(),            background.total(),
-            far_background.total(), out_background.total(), out_other.total()};
+  counts = {match.total(),          far.total(),      background.total(), far_background.total(),
+            out_background.total(), out_other.total()};
 }
 
 void compare(const std::uint16_t* cells, const std::int32_t* index, int n, int guard,
@@ -217,8 +213,8 @@ void compare(const std::uint16_t* cells, const std::int32_t* index, int n, int g
     const std::int32_t own[4] = {hue_value[i], hue_value[i + 1], hue_value[i + 2],
                                  hue_value[i + 3]};
     const int32x4_t expected = vld1q_s32(own);
-    const uint32x4_t hue = not_above(
-        circular_distance(vandq_s32(seen, low), vandq_s32(expected, low)), kHueNear20);
+    const uint32x4_t hue =
+        not_above(circular_distance(vandq_s32(seen, low), vandq_s32(expected, low)), kHueNear20);
     const uint32x4_t value =
         not_above(vabdq_s32(vshrq_n_s32(seen, 8), vshrq_n_s32(expected, 8)), kValueNear);
     hue_match.add(vandq_u32(shown, hue));

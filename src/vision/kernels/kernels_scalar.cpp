@@ -42,8 +42,7 @@ int project_lens(const float* x, const float* y, int n, const PlaneView& view,
     const float s = valid ? r2 * lens.scale : 0.0f;
     const auto step = static_cast<std::int32_t>(s);
     const float low = lens.factor[step];
-    const float factor =
-        low + (lens.factor[step + 1] - low) * (s - static_cast<float>(step));
+    const float factor = low + (lens.factor[step + 1] - low) * (s - static_cast<float>(step));
     const float ab2 = 2.0f * (a * b);
     const float da = lens.p1 * ab2 + lens.p2 * (r2 + 2.0f * (a * a));
     const float db = lens.p1 * (r2 + 2.0f * (b * b)) + lens.p2 * ab2;

@@ -33,7 +33,8 @@ class InAScene : public testing::Test {
 
   Recognition find(const TrackConfig& config, const Transform<LeftCamera, Target>* pose,
                    Parallel& parallel, const char* kernels = "auto") {
-    auto sut = Recogniser::create(config, scene.rig, TargetKind::kModel, parallel.workers(), kernels);
+    auto sut =
+        Recogniser::create(config, scene.rig, TargetKind::kModel, parallel.workers(), kernels);
     EXPECT_TRUE(sut) << sut.error().text;
     EXPECT_TRUE((*sut)->set_model(model));
     return (*sut)->recognise(see(pose, (*sut)->needs()), nullptr, {}, parallel);
@@ -79,7 +80,8 @@ TEST_F(InAScene, gives_the_same_bits_on_all_kernels_and_workers) {
     for (const vision::Kernels* kernels : vision::kernels_here()) {
       const Recognition got = find(config, &truth, backwards, kernels->name);
       EXPECT_EQ(got.left_from_target.translation, expected.left_from_target.translation);
-      EXPECT_EQ(got.left_from_target.rotation.coeffs(), expected.left_from_target.rotation.coeffs());
+      EXPECT_EQ(got.left_from_target.rotation.coeffs(),
+                expected.left_from_target.rotation.coeffs());
       EXPECT_EQ(got.fitness, expected.fitness);
       EXPECT_EQ(got.evaluations, expected.evaluations);
     }
@@ -121,8 +123,7 @@ TEST_F(InAScene, stops_when_it_is_told) {
   Budget budget;
   budget.stop = [](void* left) { return --*static_cast<int*>(left) < 0; };
   budget.context = &rounds;
-  const Recognition got =
-      (*sut)->recognise(see(&truth, (*sut)->needs()), nullptr, budget, serial);
+  const Recognition got = (*sut)->recognise(see(&truth, (*sut)->needs()), nullptr, budget, serial);
   EXPECT_LT(got.evaluations, 1000);
   EXPECT_TRUE(got.left_from_target.translation.allFinite());
 }
@@ -147,8 +148,9 @@ TEST_F(InAScene, finds_the_depth_and_size_of_a_rectangle) {
     EXPECT_NEAR(got.left_from_target.translation.z(), 0.6, allowed) << fitness;
     // On the ray through the rectangle's middle, whatever the depth.
     const Eigen::Vector3d ray = scene.rig.left.ray({r.x + 20.0, r.y + 14.0});
-    EXPECT_LT((got.left_from_target.translation / got.left_from_target.translation.z() - ray).norm(),
-              1e-9);
+    EXPECT_LT(
+        (got.left_from_target.translation / got.left_from_target.translation.z() - ray).norm(),
+        1e-9);
     EXPECT_NEAR(got.size_m.y(), 29 * 0.6 / 320, 0.012);
   }
 }
@@ -156,8 +158,11 @@ TEST_F(InAScene, finds_the_depth_and_size_of_a_rectangle) {
 TEST_F(InAScene, refuses_rectangles_outside_the_image) {
   auto sut = Recogniser::create({}, scene.rig, TargetKind::kRectangle);
   const auto frame = see(nullptr, (*sut)->needs());
-  for (const vision::Rectangle r : {vision::Rectangle{-1, 0, 20, 20}, {300, 0, 21, 20},
-                                    {0, 230, 20, 20}, {0, 0, 7, 20}, {2147483647, 0, 20, 20}}) {
+  for (const vision::Rectangle r : {vision::Rectangle{-1, 0, 20, 20},
+                                    {300, 0, 21, 20},
+                                    {0, 230, 20, 20},
+                                    {0, 0, 7, 20},
+                                    {2147483647, 0, 20, 20}}) {
     EXPECT_FALSE((*sut)->set_rectangle(r, frame));
   }
 }

@@ -5,6 +5,7 @@
 #include "src/track/track_config.hpp"
 #include "src/track/track_state.hpp"
 #include "tests/support/flat_scene.hpp"
+#include "tests/support/heap_calls.hpp"
 
 namespace gannet::track {
 namespace {
@@ -81,6 +82,28 @@ TEST_F(Tracking, a_rectangle_becomes_a_metric_model_and_is_followed) {
   const Eigen::Vector3d moved =
       later.left_from_target.translation - first.left_from_target.translation;
   EXPECT_LT((moved - Eigen::Vector3d(0.02, 0.015, 0.03)).norm(), 0.006);
+}
+
+// The heap counter is in pose_filter_test.cpp, once for the program.
+TEST_F(Tracking, takes_no_heap_once_it_exists) {
+  if (!test::kCountsHeap) GTEST_SKIP() << "the sanitizer has its own heap";
+  const auto pose = pose_at(0.05, -0.01, 0.6, 5, 5, 5);
+  const test::Picture left = scene.see(true, &pose, 1);
+  const test::Picture right = scene.see(false, &pose, 2);
+  const auto frame = [&] {
+    now += milliseconds(33);
+    return sut->process(left.view(), right.view(), now, ++number, {}, serial).found;
+  };
+  const std::uint64_t before = test::heap_calls;
+  int found = 0;
+  sut->choose_model(0, 1);
+  for (int i = 0; i < 3; ++i) found += frame();
+  sut->choose_rectangle({150, 100, 40, 30}, 2);
+  for (int i = 0; i < 3; ++i) found += frame();
+  sut->no_frame(now);
+  sut->choose_none();
+  EXPECT_EQ(test::heap_calls, before);
+  EXPECT_GE(found, 5);
 }
 
 TEST_F(Tracking, refuses_models_and_rectangles_that_are_not_there) {

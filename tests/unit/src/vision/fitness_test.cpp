@@ -39,10 +39,9 @@ TEST_P(Lens, float_kernels_sample_the_reference_pixel_for_999_points_of_1000) {
   int same = 0;
   int all = 0;
   for (int trial = 0; trial < 60; ++trial) {
-    const auto pose =
-        pose_at(0.3 * random.uniform() - 0.1, 0.3 * random.uniform() - 0.15,
-                0.4 + 0.6 * random.uniform(), 60 * random.uniform() - 30,
-                60 * random.uniform() - 30, 80 * random.uniform() - 40);
+    const auto pose = pose_at(0.3 * random.uniform() - 0.1, 0.3 * random.uniform() - 0.15,
+                              0.4 + 0.6 * random.uniform(), 60 * random.uniform() - 30,
+                              60 * random.uniform() - 30, 80 * random.uniform() - 40);
     const Hypothesis q = Hypothesis::from(pose);
     for (const bool is_left : {true, false}) {
       const CameraModel& camera = is_left ? left : right;
@@ -90,11 +89,12 @@ class OfAScene : public testing::Test {
         const int y = static_cast<int>(centre.y()) + v;
         const Eigen::Vector3d ray = scene.rig.left.ray({x, y});
         const auto at = static_cast<std::size_t>(y * eye.width + x);
-        points.push_back({static_cast<float>(ray.x()), static_cast<float>(ray.y()),
-                          std::abs(u) <= 28 && std::abs(v) <= 18,
-                          {static_cast<float>(eye.smooth[0][at]),
-                           static_cast<float>(eye.smooth[1][at]),
-                           static_cast<float>(eye.smooth[2][at])}});
+        points.push_back(
+            {static_cast<float>(ray.x()),
+             static_cast<float>(ray.y()),
+             std::abs(u) <= 28 && std::abs(v) <= 18,
+             {static_cast<float>(eye.smooth[0][at]), static_cast<float>(eye.smooth[1][at]),
+              static_cast<float>(eye.smooth[2][at])}});
       }
     }
     out.level[0].assign(points, model.background, model.background_hue, true);
@@ -114,8 +114,8 @@ class OfAScene : public testing::Test {
     Random random(3);
     const auto either = [&](double scale) { return scale * (2 * random.uniform() - 1); };
     for (int i = 1; i < n; ++i) {
-      auto pose = pose_at(either(0.2), either(0.15), 0.6 + either(0.2), either(30), either(30),
-                          either(40));
+      auto pose =
+          pose_at(either(0.2), either(0.15), 0.6 + either(0.2), either(30), either(30), either(40));
       out.push_back(pose);
     }
     return out;

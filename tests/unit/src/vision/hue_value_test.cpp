@@ -34,8 +34,12 @@ TEST(HueValue, agrees_with_hsv_of_rgb_where_there_is_chroma) {
     const int r = random.below(256), g = random.below(256), b = random.below(256);
     const Hsv expected = hsv_of(r, g, b);
     if (expected.chroma < 60) continue;
-    const std::uint8_t rgb[6] = {static_cast<std::uint8_t>(r), static_cast<std::uint8_t>(g),
-                                 static_cast<std::uint8_t>(b), 0, 0, 0};
+    const std::uint8_t rgb[6] = {static_cast<std::uint8_t>(r),
+                                 static_cast<std::uint8_t>(g),
+                                 static_cast<std::uint8_t>(b),
+                                 0,
+                                 0,
+                                 0};
     hal::ImageView view;
     view.width = 2;
     view.height = 1;

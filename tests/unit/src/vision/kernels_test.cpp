@@ -146,8 +146,8 @@ TEST_P(KernelVariant, votes_the_same) {
     VoteCounts expected, got;
     kScalarKernels.vote(d.hue_cells.data(), index.data(), n_in, d.n - n_in, d.view.guard,
                         d.hue.data(), d.flags.data(), 250, expected);
-    GetParam()->vote(d.hue_cells.data(), index.data(), n_in, d.n - n_in, d.view.guard,
-                     d.hue.data(), d.flags.data(), 250, got);
+    GetParam()->vote(d.hue_cells.data(), index.data(), n_in, d.n - n_in, d.view.guard, d.hue.data(),
+                     d.flags.data(), 250, got);
     EXPECT_TRUE(same_bits(expected, got));
   });
 }

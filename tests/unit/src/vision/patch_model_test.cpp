@@ -99,8 +99,8 @@ TEST_F(Photo, has_the_texture_where_its_points_say) {
     const ModelPoint& p = model->points[static_cast<std::size_t>(i)];
     const double x = static_cast<double>(p.x_m), y = static_cast<double>(p.y_m);
     if (!scene.covers(1.15 * x, 1.15 * y)) continue;  // the rim is mixed with the background
-    worst = std::max(worst, std::abs(120 + scene.target.at(0, x, y) -
-                                     static_cast<double>(p.colour.y)));
+    worst =
+        std::max(worst, std::abs(120 + scene.target.at(0, x, y) - static_cast<double>(p.colour.y)));
   }
   EXPECT_LT(worst, 6);  // grey levels: noise and half a pixel's slope
 }
@@ -110,7 +110,8 @@ TEST(Coarsen, keeps_the_mean_colour_and_thins_by_the_square_of_the_factor) {
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 40; ++x) {
       points.push_back({0.01f * (static_cast<float>(x) + 0.5f),
-                        0.01f * (static_cast<float>(y) + 0.5f), true,
+                        0.01f * (static_cast<float>(y) + 0.5f),
+                        true,
                         {static_cast<float>(x + y), 128, 128}});
     }
   }

@@ -41,8 +41,8 @@ TEST_F(Refine, pulls_a_pose_from_a_few_millimetres_to_a_tenth_of_one) {
     const Eigen::Vector3d error = got.left_from_target.translation - truth.translation;
     worst_xy = std::max(worst_xy, error.head<2>().norm());
     worst_z = std::max(worst_z, std::abs(error.z()));
-    worst_angle = std::max(worst_angle,
-                           got.left_from_target.rotation.angularDistance(truth.rotation));
+    worst_angle =
+        std::max(worst_angle, got.left_from_target.rotation.angularDistance(truth.rotation));
   }
   EXPECT_LT(worst_xy, 0.0006);
   EXPECT_LT(worst_z, 0.002);
@@ -78,16 +78,17 @@ TEST_F(Refine, finds_the_plane_of_a_rectangle) {
       const int x = static_cast<int>(centre.x()) + u, y = static_cast<int>(centre.y()) + v;
       const Eigen::Vector3d ray = scene.rig.left.ray({x, y});
       const auto at = static_cast<std::size_t>(y * eye.width + x);
-      patch.push_back({static_cast<float>(ray.x()), static_cast<float>(ray.y()), true,
-                       {static_cast<float>(eye.smooth[0][at]),
-                        static_cast<float>(eye.smooth[1][at]),
-                        static_cast<float>(eye.smooth[2][at])}});
+      patch.push_back(
+          {static_cast<float>(ray.x()),
+           static_cast<float>(ray.y()),
+           true,
+           {static_cast<float>(eye.smooth[0][at]), static_cast<float>(eye.smooth[1][at]),
+            static_cast<float>(eye.smooth[2][at])}});
     }
   }
   PointSet set;
   set.assign(patch, {}, 0, true);
-  const Eigen::Vector3d ray = scene.rig.left.ray(
-      {std::floor(centre.x()), std::floor(centre.y())});
+  const Eigen::Vector3d ray = scene.rig.left.ray({std::floor(centre.x()), std::floor(centre.y())});
   const Eigen::Vector3d normal = truth.rotation * Eigen::Vector3d::UnitZ();
   const auto start = pose_of_plane(Eigen::Vector3d(0, 0, 1 / 0.585), ray);
   const Refinement got = refine_plane(scene.rig, set, frame, start, ray, {});
