@@ -6,6 +6,7 @@
 
 #include "platform/base/nearest_word.hpp"
 #include "src/tool/offline.hpp"
+#include "src/tool/online.hpp"
 
 namespace gannet::tool {
 namespace {
@@ -18,10 +19,8 @@ Command top_command() {
                          "builds models of targets, finds them in stereo images, and talks "
                          "to gannetd",
                      .description = "Each subcommand has its own --help and manual page."};
-  command.positionals = {{.name = "subcommand", .required = true, .help = "What to do."}};
   for (const Subcommand& sub : subcommands()) {
-    command.positionals.push_back(
-        {.name = sub.command.name.substr(kPrefix.size()), .help = sub.command.summary + "."});
+    command.subcommands.emplace_back(sub.command.name.substr(kPrefix.size()), sub.command.summary);
     std::string page = sub.command.name;
     std::replace(page.begin(), page.end(), ' ', '-');
     command.see_also += page + "(1), ";
@@ -65,8 +64,13 @@ std::string usage_hint(const std::string& word) {
 }  // namespace
 
 std::span<const Subcommand> subcommands() {
-  static const std::vector<Subcommand> kTable = {model_build_subcommand(), locate_subcommand(),
-                                                 track_subcommand(), map_subcommand()};
+  static const std::vector<Subcommand> kTable = [] {
+    std::vector<Subcommand> table = {model_build_subcommand(), locate_subcommand(),
+                                     track_subcommand(), map_subcommand()};
+    const std::vector<Subcommand> online = online_subcommands();
+    table.insert(table.end(), online.begin(), online.end());
+    return table;
+  }();
   return kTable;
 }
 
@@ -80,8 +84,10 @@ int run_gannet(std::span<const std::string> args) {
     best = &sub;
   }
   if (best != nullptr) return run_subcommand(*best, args.subspan(most));
-  if (!args.empty() && args[0][0] != '-') {
-    std::fprintf(stderr, "gannet: %s\n", usage_hint(args[0]).c_str());
+  if (args.empty() || args[0].rfind('-', 0) != 0) {
+    const std::string problem =
+        args.empty() ? "a subcommand is missing; `gannet --help` lists them" : usage_hint(args[0]);
+    std::fprintf(stderr, "gannet: %s\n", problem.c_str());
     return 2;
   }
   Arguments arguments;
