@@ -11,14 +11,17 @@ Result<std::unique_ptr<Cameras>> Cameras::create(const Config& config, Renderer 
   format.height = renderer.rig().left.height;
   auto writer = hal::SharedFramesWriter::create(config.shared_name, format);
   if (!writer) return writer.error();
+  auto kept = KeptFrames::create(config.keep_folder, config.keep_every);
+  if (!kept) return kept.error();
   return std::unique_ptr<Cameras>(
-      new Cameras(config, std::move(*writer), std::move(renderer), parallel));
+      new Cameras(config, std::move(*writer), std::move(*kept), std::move(renderer), parallel));
 }
 
-Cameras::Cameras(const Config& config, hal::SharedFramesWriter writer, Renderer renderer,
-                 Parallel& parallel)
+Cameras::Cameras(const Config& config, hal::SharedFramesWriter writer, KeptFrames kept,
+                 Renderer renderer, Parallel& parallel)
     : config_(config),
       writer_(std::move(writer)),
+      kept_(std::move(kept)),
       renderer_(std::move(renderer)),
       parallel_(parallel),
       random_(config.seed ^ 0xca3e7a) {
@@ -69,6 +72,11 @@ bool Cameras::draw(const Job& job) {
   };
   renderer_.render(job.scene, job.world_from_left, job.time_s, job.number, parallel_,
                    target(images->left), target(images->right));
+  const auto view = [&](std::span<const std::uint8_t> bytes) {
+    return hal::view_of(writer_.layout(), bytes.data(), format.format, camera.width, camera.height,
+                        format.matrix, format.range);
+  };
+  kept_.take(job.number, job.time_s, view(images->left), view(images->right));
   writer_.publish(job.capture, job.capture + config_.latency);
   return true;
 }

@@ -15,6 +15,7 @@
 #include "platform/base/parallel.hpp"
 #include "platform/base/random.hpp"
 #include "platform/base/time.hpp"
+#include "src/world/kept_frames.hpp"
 #include "src/world/renderer.hpp"
 
 namespace gannet::world {
@@ -33,8 +34,10 @@ class Cameras {
     Duration latency = {};
     bool in_background = false;  // live
     std::uint64_t seed = 1;
+    std::string keep_folder = {};  // of pairs that are kept as files (kept_frames.hpp)
+    int keep_every = 0;            // 0: none
   };
-  // parallel is borrowed. Error: no shared memory.
+  // parallel is borrowed. Error: no shared memory, no folder for kept pairs.
   static Result<std::unique_ptr<Cameras>> create(const Config& config, Renderer renderer,
                                                  Parallel& parallel);
   ~Cameras();
@@ -58,13 +61,14 @@ class Cameras {
     Transform<World, LeftCamera> world_from_left;
     std::uint64_t number = 0;
   };
-  Cameras(const Config& config, hal::SharedFramesWriter writer, Renderer renderer,
+  Cameras(const Config& config, hal::SharedFramesWriter writer, KeptFrames kept, Renderer renderer,
           Parallel& parallel);
   bool draw(const Job& job);
   void work();
 
   const Config config_;
   hal::SharedFramesWriter writer_;
+  KeptFrames kept_;
   Renderer renderer_;
   Parallel& parallel_;
   Random random_;

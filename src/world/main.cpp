@@ -2,13 +2,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "platform/base/command_line.hpp"
 #include "platform/linux/clock.hpp"
-#include "platform/linux/whole_file.hpp"
 #include "src/report/progress.hpp"
 #include "src/world/assets.hpp"
 #include "src/world/daemon_process.hpp"
@@ -28,32 +28,47 @@ Command command() {
           "judges what came of it. The daemon hears of the world only by frames, CAN, lines and, "
           "in stepped time, the step socket.\n\nIn stepped time everything repeats bit for bit "
           "however busy the machine is; live, the daemon's threads run by the clock.",
-      .options = {{.name = "stepped",
-                   .kind = ArgumentKind::kFlag,
-                   .help = "Stepped time, the default."},
-                  {.name = "live", .kind = ArgumentKind::kFlag, .help = "The machine's own time."},
-                  {.name = "record",
-                   .value = "DIR",
-                   .help = "Write result.json, trace.csv, events.csv and the daemon's log here."},
-                  {.name = "seed",
-                   .kind = ArgumentKind::kInteger,
-                   .value = "N",
-                   .min = 0,
-                   .help = "Of noise and random motion; the scenario's own if absent."},
-                  {.name = "set",
-                   .value = "ROOM.KEY=VALUE",
-                   .repeats = true,
-                   .help = "Handed to gannetd after what the scenario sets."},
-                  {.name = "gannetd",
-                   .value = "PATH",
-                   .help = "The daemon; the one beside this program if absent."},
-                  {.name = "attach",
-                   .value = "DIR",
-                   .help = "Start no daemon: make DIR, write gannetd.toml into it, and wait for "
-                           "'gannetd -c DIR/gannetd.toml'."},
-                  {.name = "assets",
-                   .value = "DIR",
-                   .help = "The photographs; $GANNET_ASSETS or build/assets if absent."}},
+      .options =
+          {{.name = "stepped", .kind = ArgumentKind::kFlag, .help = "Stepped time, the default."},
+           {.name = "live", .kind = ArgumentKind::kFlag, .help = "The machine's own time."},
+           {.name = "record",
+            .value = "DIR",
+            .help = "Write result.json, trace.csv, events.csv, the daemon's log, its config, "
+                    "rig and models here; `gannet report` makes a page of them."},
+           {.name = "keep-every",
+            .kind = ArgumentKind::kInteger,
+            .value = "N",
+            .min = 0,
+            .max = 1000000,
+            .unit = "frames",
+            .preset = "0",
+            .help = "With --record: keep each N-th pair in DIR/frames, 0: none."},
+           {.name = "duration-s",
+            .kind = ArgumentKind::kNumber,
+            .value = "S",
+            .min = 0.1,
+            .max = 86400,
+            .unit = "s",
+            .help = "How long to run; the scenario's own if absent."},
+           {.name = "seed",
+            .kind = ArgumentKind::kInteger,
+            .value = "N",
+            .min = 0,
+            .help = "Of noise and random motion; the scenario's own if absent."},
+           {.name = "set",
+            .value = "ROOM.KEY=VALUE",
+            .repeats = true,
+            .help = "Handed to gannetd after what the scenario sets."},
+           {.name = "gannetd",
+            .value = "PATH",
+            .help = "The daemon; the one beside this program if absent."},
+           {.name = "attach",
+            .value = "DIR",
+            .help = "Start no daemon: make DIR, write gannetd.toml into it, and wait for "
+                    "'gannetd -c DIR/gannetd.toml'."},
+           {.name = "assets",
+            .value = "DIR",
+            .help = "The photographs; $GANNET_ASSETS or build/assets if absent."}},
       .positionals = {{.name = "scenario",
                        .value = "SCENARIO",
                        .required = true,
@@ -79,15 +94,22 @@ void show_log(const RunFiles& files) {
   }
 }
 
-void keep_log(const RunFiles& files, const std::string& folder) {
-  if (auto log = linux_os::read_file(files.log(), 1 << 26))
-    (void)linux_os::write_file(folder + "/gannetd.log", *log);
+// What the daemon was given and what it said; the folder of the run itself is temporary.
+void keep_files(const RunFiles& files, const std::filesystem::path& folder) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(files.folder(), error)) {
+    const std::string end = entry.path().extension().string();
+    if (end != ".toml" && end != ".log" && end != ".gannet") continue;
+    std::filesystem::copy_file(entry.path(), folder / entry.path().filename(),
+                               std::filesystem::copy_options::overwrite_existing, error);
+  }
 }
 
 int run(const Arguments& arguments, const std::string& program) {
   auto scenario = load_scenario(find_scenario(arguments.text("scenario"), program));
   if (!scenario) return fail(2, scenario.error().text);
   if (arguments.given("seed")) scenario->seed = arguments.integer("seed");
+  if (arguments.given("duration-s")) scenario->duration_s = arguments.number("duration-s");
   for (const std::string& setting : arguments.texts("set"))
     scenario->daemon.settings.push_back(setting);
 
@@ -95,6 +117,10 @@ int run(const Arguments& arguments, const std::string& program) {
   options.stepped = !arguments.flag("live");
   options.assets = arguments.given("assets") ? arguments.text("assets") : assets_folder();
   options.folder = arguments.text("attach");
+  if (arguments.given("record")) {
+    options.keep_folder = arguments.text("record") + "/frames";
+    options.keep_every = arguments.integer("keep-every");
+  }
   if (!arguments.given("attach"))
     options.gannetd =
         arguments.given("gannetd") ? arguments.text("gannetd") : gannetd_beside(program);
@@ -123,13 +149,13 @@ int run(const Arguments& arguments, const std::string& program) {
           write_record(arguments.text("record"), *scenario, *result, options.stepped);
       if (!written) return fail(3, written.error().text);
     }
-    keep_log((*simulation)->files(), arguments.text("record"));
+    keep_files((*simulation)->files(), arguments.text("record"));
   }
   if (!result) {
     show_log((*simulation)->files());
     return fail(3, result.error().text);
   }
-  std::printf("%s", result_table(*result).c_str());
+  std::printf("%s\n%s\n", result_table(*result).c_str(), timing_table(*result).c_str());
   std::printf("%s: %s after %.1f s of simulated and %.1f s of real time\n", scenario->name.c_str(),
               result->passed() ? "passed" : "FAILED", scenario->duration_s, result->host_s);
   return result->passed() ? 0 : 1;

@@ -131,32 +131,55 @@ Result<std::vector<std::string>> Simulation::make_cameras() {
   config.latency = from_seconds(scenario_.camera.latency_ms / 1000);
   config.in_background = !options_.stepped;
   config.seed = seed;
+  config.keep_folder = options_.keep_folder;
+  config.keep_every = options_.keep_every;
   auto cameras = Cameras::create(config, std::move(renderer), *parallel_);
   if (!cameras) return cameras.error();
   cameras_ = std::move(*cameras);
   return models;
 }
 
+Result<void> Simulation::start_daemon() {
+  if (options_.gannetd.empty()) return {};
+  std::vector<std::string> args = {"-c", files_.config()};
+  for (const std::string& setting : scenario_.daemon.settings) {
+    args.push_back("--set");
+    args.push_back(setting);
+  }
+  auto daemon = DaemonProcess::start(options_.gannetd, args, files_.log());
+  if (!daemon) return daemon.error();
+  daemon_.emplace(std::move(*daemon));
+  return {};
+}
+
+// Asks again and again, so that a daemon that gave up is noticed at once.
+Result<void> Simulation::patiently(const std::function<Result<void>(Duration)>& attempt) {
+  constexpr Duration kSlice = std::chrono::milliseconds(100);
+  Result<void> done;
+  for (Duration waited{}; waited < options_.patience; waited += kSlice) {
+    done = attempt(kSlice);
+    if (done) return done;
+    if (daemon_ && !daemon_->running())
+      return Error{options_.gannetd + " ended with exit code " +
+                   std::to_string(daemon_->exit_code()) + " before the run began"};
+  }
+  return done;
+}
+
 Result<void> Simulation::meet_daemon() {
   lines_->write(lines_->find(kEstopLine), hal::Level::kLow, {});
-  if (!options_.gannetd.empty()) {
-    std::vector<std::string> args = {"-c", files_.config()};
-    for (const std::string& setting : scenario_.daemon.settings) {
-      args.push_back("--set");
-      args.push_back(setting);
-    }
-    auto daemon = DaemonProcess::start(options_.gannetd, args, files_.log());
-    if (!daemon) return daemon.error();
-    daemon_.emplace(std::move(*daemon));
-  }
+  const auto started = start_daemon();
+  if (!started) return started.error();
   if (steps_) {
-    const auto met = steps_->wait_for_daemon(options_.patience);
-    if (!met) return met;
+    const auto met = patiently([&](Duration slice) { return steps_->wait_for_daemon(slice); });
+    if (!met) return met.error();
   }
-  auto person = Operator::connect(files_.control(), options_.patience);
-  if (!person) return person.error();
-  operator_.emplace(std::move(*person));
-  return {};
+  return patiently([&](Duration slice) -> Result<void> {
+    auto person = Operator::connect(files_.control(), slice);
+    if (!person) return person.error();
+    operator_.emplace(std::move(*person));
+    return {};
+  });
 }
 
 Result<RunResult> Simulation::run(const Tick& tick) {

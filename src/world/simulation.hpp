@@ -28,9 +28,11 @@ namespace gannet::world {
 
 struct SimulationOptions {
   bool stepped = true;
-  std::string gannetd;  // "": somebody else starts it with the run's config
-  std::string assets;   // folder of photographs
-  std::string folder;   // of the run; "": a temporary one
+  std::string gannetd;      // "": somebody else starts it with the run's config
+  std::string assets;       // folder of photographs
+  std::string folder;       // of the run; "": a temporary one
+  std::string keep_folder;  // of frames kept as files (kept_frames.hpp)
+  int keep_every = 0;       // 0: none
   Duration patience = std::chrono::seconds(30);  // with a daemon that starts, or takes a step
 };
 
@@ -66,6 +68,8 @@ class Simulation {
   Result<void> make_motors(const hal::DriveConfig& drives);
   Result<void> make_steps();
   Result<std::vector<std::string>> make_cameras();
+  Result<void> start_daemon();
+  Result<void> patiently(const std::function<Result<void>(Duration)>& attempt);
   Result<void> meet_daemon();
   Result<void> periods(const Tick& tick);
   Result<void> period(TimePoint now);
