@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include "platform/linux/whole_file.hpp"
 #include "src/report/table.hpp"
@@ -13,6 +15,25 @@ std::string result_table(const RunResult& result) {
   for (const Verdict& verdict : result.verdicts)
     table.add({verdict.text, verdict.found, verdict.passed ? "passed" : "FAILED"});
   return table.text();
+}
+
+std::string timing_table(const RunResult& result) {
+  using control::Json;
+  const Json latencies = result.top.value("latencies", Json::object());
+  report::Table table({"time, ms", "count", "p50", "p90", "p99", "max"});
+  for (const auto& [name, histogram] : latencies.items()) {
+    std::vector<std::string> row = {name, std::to_string(histogram.value("count", 0))};
+    for (const char* key : {"p50_us", "p90_us", "p99_us", "max_us"})
+      row.push_back(report::number(histogram.value(key, 0.0) / 1000, 3));
+    table.add(std::move(row));
+  }
+  std::string text = table.text();
+  const Json drops = result.top.value("drops", Json::object());
+  text += "lost: " + std::to_string(result.cameras.lost) + " pairs by the simulated cameras";
+  for (const auto& [name, count] : drops.items())
+    if (name != "frames" && name != "can_sent" && name != "can_received" && count != 0)
+      text += ", " + count.dump() + " " + name;
+  return text + "\n";
 }
 
 control::Json result_json(const Scenario& scenario, const RunResult& result, bool stepped) {

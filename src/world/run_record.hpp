@@ -10,6 +10,9 @@
 namespace gannet::world {
 
 std::string result_table(const RunResult& result);
+// What the daemon says of its own times and losses; live they are this machine's, stepped only
+// frame → pose and the counts mean something.
+std::string timing_table(const RunResult& result);
 control::Json result_json(const Scenario& scenario, const RunResult& result, bool stepped);
 
 // Into a folder that is made.

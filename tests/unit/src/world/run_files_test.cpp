@@ -1,0 +1,73 @@
+#include "src/world/run_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "src/config/rig_file.hpp"
+
+namespace gannet::world {
+namespace {
+
+TEST(RunFiles, a_temporary_folder_is_gone_afterwards) {
+  std::string folder;
+  {
+    const auto sut = RunFiles::create("");
+    ASSERT_TRUE(sut);
+    folder = sut->folder();
+    EXPECT_TRUE(std::filesystem::is_directory(folder));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder));
+}
+
+TEST(RunFiles, a_named_folder_stays) {
+  const std::string folder = ::testing::TempDir() + "gannet-run-files-test";
+  { ASSERT_TRUE(RunFiles::create(folder)); }
+  EXPECT_TRUE(std::filesystem::is_directory(folder));
+  std::filesystem::remove_all(folder);
+  EXPECT_FALSE(RunFiles::create("/proc/no/such/place"));
+}
+
+TEST(RunFiles, the_rig_reads_back_as_it_was) {
+  StereoRig rig = Scenario{}.rig();
+  rig.left.distortion = Distortion::kBrown;
+  rig.left.coefficients = {-0.28, 0.09, 0.001, -0.0007, 0.01};
+  rig.right.distortion = Distortion::kFisheye;
+  rig.right.coefficients = {0.01, -0.02, 0.003, 0.0001, 0};
+  rig.right_from_left.rotation = quaternion_from_rpy(0.01, -0.02, 0.005);
+  const auto read = config::parse_rig(rig_text(rig), "rig.toml");
+  ASSERT_TRUE(read) << read.error().text;
+  EXPECT_EQ(read->left.coefficients, rig.left.coefficients);
+  EXPECT_EQ(read->right.coefficients, rig.right.coefficients);
+  EXPECT_EQ(read->left.fx, rig.left.fx);
+  EXPECT_LT(read->right_from_left.rotation.angularDistance(rig.right_from_left.rotation), 1e-7);
+  EXPECT_LT((read->hand_from_left.translation - rig.hand_from_left.translation).norm(), 1e-12);
+  ASSERT_TRUE(read->body_from_hand);
+  EXPECT_LT(read->body_from_hand->rotation.angularDistance(rig.body_from_hand->rotation), 1e-7);
+}
+
+// The daemon's own loader takes the config of every kind of scenario.
+class DaemonConfigOf : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(DaemonConfigOf, loads_in_the_daemon) {
+  const auto files = RunFiles::create("");
+  ASSERT_TRUE(files);
+  const auto scenario = load_scenario(std::string("tests/scenarios/") + GetParam() + ".toml");
+  ASSERT_TRUE(scenario);
+  for (const bool stepped : {true, false}) {
+    const auto config = daemon_config(*scenario, *files, {}, stepped);
+    ASSERT_TRUE(write_files(*scenario, *files, config));
+    const auto loaded = config::load_daemon_config({files->config(), {}});
+    ASSERT_TRUE(loaded) << loaded.error().text;
+    EXPECT_EQ(loaded->config.clock.kind, stepped ? "stepped" : "live");
+    EXPECT_EQ(loaded->config.vehicle.kind, scenario->vehicle.kind);
+    EXPECT_EQ(loaded->config.drive.motors.size(), scenario->vehicle.kind == "rov" ? 8u : 0u);
+    EXPECT_EQ(loaded->config.vehicle.rov.added_mass, config.vehicle.rov.added_mass);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, DaemonConfigOf,
+                         ::testing::Values("rov_station_keeping", "poses_only"));
+
+}  // namespace
+}  // namespace gannet::world
