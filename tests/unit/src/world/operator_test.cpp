@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <memory>
+#include <optional>
 #include <thread>
 
 #include "src/control/server.hpp"
@@ -50,7 +52,7 @@ class OperatorTest : public ::testing::Test {
   void SetUp() override {
     auto server = control::Server::listen(socket_, "");
     ASSERT_TRUE(server) << server.error().text;
-    server_.emplace(std::move(*server));
+    server_ = std::move(*server);
     thread_ = std::thread([this] {
       while (!stop_) {
         server_->serve([this](const control::Request& request) { return answer(request); });
@@ -78,7 +80,7 @@ class OperatorTest : public ::testing::Test {
   }
   const std::string socket_ =
       ::testing::TempDir() + "gannet-operator-test-" + std::to_string(getpid());
-  std::optional<control::Server> server_;
+  std::unique_ptr<control::Server> server_;
   std::thread thread_;
   std::atomic<bool> stop_{false};
   std::string asked_;

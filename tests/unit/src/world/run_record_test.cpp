@@ -34,7 +34,7 @@ std::string file_text(const std::string& path) {
 
 TEST(RunRecord, says_every_verdict) {
   const std::string text = result_table(example());
-  EXPECT_NE(text.find("settle_s < 6  4.2    passed"), std::string::npos) << text;
+  EXPECT_NE(text.find("settle_s < 6    4.2  passed"), std::string::npos) << text;
   EXPECT_NE(text.find("FAILED"), std::string::npos);
   EXPECT_FALSE(example().passed());
 }
