@@ -218,12 +218,14 @@ Recognition Recogniser::recognise(const vision::PreparedFrame& frame,
   optimiser_->begin_frame({best.data(), hint != nullptr ? dimension : 0});
   std::fill(rivals_.begin(), rivals_.end(), Rival{-1, {0, 0, 0}});
   double spent = 0;
-  while (spent < wanted) {
+  // The answer is scored three times more: found, refined, and on the coarsest level.
+  const double for_search = std::max(wanted - 3, 1.0);
+  while (spent < for_search) {
     if (budget.stop != nullptr && budget.stop(budget.context)) break;
     const int level = std::min(optimiser_->level(), levels - 1);
     const double one = target_.cost(level);
     const auto room = std::min<std::size_t>(
-        kBatch, static_cast<std::size_t>(std::max(1.0, std::ceil((wanted - spent) / one))));
+        kBatch, static_cast<std::size_t>(std::max(1.0, std::floor((for_search - spent) / one))));
     const int n = optimiser_->propose({genes_.data(), room * dimension});
     score_batch(frame, level, n, parallel);
     if (level == levels - 1) note_rivals(n);
