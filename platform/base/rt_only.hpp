@@ -1,6 +1,6 @@
 // Included last in the sources of real-time loops: from here to the end of the file the names
 // below do not compile. They take locks or memory, sleep, or write text. Headers before it may
-// use them, so this is the first net; tests/rt with its malloc trap is the second.
+// use them, so that this is the first net; tests/rt with its malloc trap is the second. Any thread.
 #pragma once
 
 // Placement new is poisoned with new; a loop's memory is taken by its wiring.

@@ -4,7 +4,7 @@
 //   throttle = 0 after 4.1 s until 8 s
 //   permit none within 20 ms of press estop
 //   state is stopped at 5 s
-// Measures are listed in check.cpp with their meaning. Pure. Start-up and the run's end.
+// Measures are listed in check.cpp with their meaning. Pure; any thread.
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
 // Marine snow: particles that drift through a cube which repeats in all directions, so that the
 // camera always swims in it. Each is a small disc of light with the edge softened to a pixel, and
-// the same sphere in the world for both eyes. Used by the renderer only; deterministic.
+// the same sphere in the world for both eyes. Used by the renderer only, on any thread of its;
+// deterministic.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // One flat thing as one camera sees it: rays through pixels (RayTable) meet its plane, the texture
 // is looked up where they do, filtered over the pixel's footprint, lit, seen through the water and
-// laid over what is there. Used by the renderer only; made anew for every picture, no heap.
+// laid over what is there. Used by the renderer only, on any thread of its; made anew for every
+// picture, no heap.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
 // RunRecord: what is left of a run: the table that people read, result.json, trace.csv and
-// events.csv. Start-up and end of a run.
+// events.csv. Called at the end of a run, world thread.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // Pictures that are drawn by rule, for tests and for machines without the photographs: they are
 // called drawn wherever they appear. All repeat seamlessly. Same bits for the same seed.
+// Start-up only.
 #pragma once
 
 #include <cstdint>
