@@ -53,7 +53,7 @@ class FilePrinter final : public Printer, private TextVisitor {
   void on_field(std::string_view name, const std::string& value, std::string_view,
                 const About& about) override {
     const std::string facts = facts_text(about);
-    const std::string help = std::string(about.help) + (facts.empty() ? "" : " [" + facts + "]");
+    const std::string help = std::string(about.help) + (facts.empty() ? "" : " (" + facts + ")");
     tables_.back().keys += wrapped(help, "# ") + std::string(name) + " = " + value + "\n";
   }
   void on_group(std::string_view, std::string_view help) override {
@@ -187,7 +187,7 @@ class ManPrinter final : public SectionPrinter {
                 const About& about) override {
     const std::string facts = facts_text(about);
     add_row(".TP\n.B " + roff(name) + " = " + roff(value) + "\n" + roff(about.help) +
-            (facts.empty() ? "" : " [" + roff(facts) + "]") + "\n");
+            (facts.empty() ? "" : " (" + roff(facts) + ")") + "\n");
   }
 };
 

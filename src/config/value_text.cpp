@@ -74,7 +74,11 @@ std::string interval_text(const About& about) {
 std::string facts_text(const About& about) {
   std::vector<std::string> facts;
   if (!about.unit.empty()) facts.emplace_back(about.unit);
-  if (!interval_text(about).empty()) facts.push_back(interval_text(about));
+  const bool low = std::isfinite(about.min);
+  const bool high = std::isfinite(about.max);
+  if (low && high) facts.push_back(number_text(about.min) + " … " + number_text(about.max));
+  if (low && !high) facts.push_back("at least " + number_text(about.min));
+  if (high && !low) facts.push_back("at most " + number_text(about.max));
   if (about.size >= 0) facts.push_back(std::to_string(about.size) + " elements");
   if (!about.choices.empty()) facts.push_back("one of " + joined(about.choices, ", "));
   return joined(facts, "; ");

@@ -25,7 +25,7 @@ std::string value_text(const std::vector<int>& values);
 std::string value_text(const std::vector<std::string>& values);
 
 std::string interval_text(const About& about);  // "[4, 4096]", "[0, ∞)", "" without limits
-std::string facts_text(const About& about);     // "individuals, [4, 4096]"; choices; array length
+std::string facts_text(const About& about);     // "Hz; 4 … 4096"; choices; array length
 
 // Lines of at most 96 columns, each begun with prefix.
 std::string wrapped(std::string_view text, std::string_view prefix);

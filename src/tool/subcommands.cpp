@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "platform/base/nearest_word.hpp"
+#include "src/config/daemon_config.hpp"
+#include "src/config/rig_file.hpp"
 #include "src/tool/offline.hpp"
 #include "src/tool/online.hpp"
 
@@ -61,6 +63,23 @@ std::string usage_hint(const std::string& word) {
          "; `gannet --help` lists them";
 }
 
+// `gannet --reference NAME`, for `make docs`: what is written of files, and the subcommands' words.
+int print_reference(const std::string& name) {
+  std::string text;
+  if (name == "gannet.toml.5") text = config::config_man_page();
+  if (name == "gannet.toml.md") text = config::config_markdown();
+  if (name == "rig.md")
+    text =
+        "# RIG files\n\nThe calibration of two cameras. Made from the program's own description "
+        "by `make docs`; do not edit.\n" +
+        config::rig_reference();
+  if (name == "subcommands")
+    for (const Subcommand& sub : subcommands())
+      text += sub.command.name.substr(kPrefix.size()) + "\n";
+  std::fputs(text.c_str(), stdout);
+  return text.empty() ? 2 : 0;
+}
+
 }  // namespace
 
 std::span<const Subcommand> subcommands() {
@@ -84,6 +103,7 @@ int run_gannet(std::span<const std::string> args) {
     best = &sub;
   }
   if (best != nullptr) return run_subcommand(*best, args.subspan(most));
+  if (args.size() == 2 && args[0] == "--reference") return print_reference(args[1]);
   if (args.empty() || args[0].rfind('-', 0) != 0) {
     const std::string problem =
         args.empty() ? "a subcommand is missing; `gannet --help` lists them" : usage_hint(args[0]);

@@ -85,7 +85,7 @@ TEST_F(DaemonConfigTest, later_sources_overrule_earlier_ones) {
 TEST_F(DaemonConfigTest, all_problems_of_all_sources_are_told_at_once) {
   write("gannet.toml", "rig = \"rig.toml\"\n[track]\nsede = 3\n[safety]\nfull_age_s = 99\n");
   write("gannet.toml.d/a.toml", "[servo]\nlaw = \"pose_regulatio\"\n");
-  EXPECT_EQ(problems({"track.seed=x y", "=3", "nonsense", "track.fitness=p003"}),
+  EXPECT_EQ(problems({"track.seed=x y", "=3", "nonsense", "clock.kind=stoped"}),
             "--set =3: is not of the form room.key=value\n"
             "--set nonsense: is not of the form room.key=value\n"
             "gannet.toml:3: track.sede: unknown key (did you mean seed?)\n"
@@ -93,8 +93,8 @@ TEST_F(DaemonConfigTest, all_problems_of_all_sources_are_told_at_once) {
             "gannet.toml.d/a.toml:2: servo.law: \"pose_regulatio\" is none of pose_regulation "
             "(did you mean pose_regulation?)\n"
             "--set track.seed=x y: track.seed: expects a whole number, found a string\n"
-            "--set track.fitness=p003: track.fitness: \"p003\" is none of p001, p002, p000, gannet "
-            "(did you mean p001?)");
+            "--set clock.kind=stoped: clock.kind: \"stoped\" is none of live, stepped "
+            "(did you mean stepped?)");
 }
 
 TEST_F(DaemonConfigTest, files_that_cannot_be_read_are_told) {
@@ -196,6 +196,19 @@ TEST(DaemonConfig, each_board_file_loads) {
     }
   }
   EXPECT_GE(boards, 3);
+}
+
+// From the source tree, where `make` runs the tests.
+TEST(DaemonConfig, each_example_loads_with_its_rig) {
+  if (!fs::exists("docs/examples")) GTEST_SKIP() << "not in the source tree";
+  int examples = 0;
+  for (const auto& entry : fs::directory_iterator("docs/examples")) {
+    if (entry.path().filename() == "rig.toml" || entry.path().extension() != ".toml") continue;
+    const auto loaded = load_daemon_config({entry.path().string(), {}});
+    EXPECT_TRUE(loaded) << loaded.error().text;
+    ++examples;
+  }
+  EXPECT_GE(examples, 2);
 }
 
 }  // namespace

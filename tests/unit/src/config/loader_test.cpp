@@ -218,7 +218,7 @@ TEST(FilePrinter, an_empty_list_is_shown_as_a_comment_to_copy) {
   const std::string text = commented_file(Fish{});
   EXPECT_NE(text.find("# [[fin]]\n"), std::string::npos) << text;
   EXPECT_NE(text.find("# x_m = 0.25\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("# Individuals kept. [individuals; [4, 4096]]\npopulation = 60\n"),
+  EXPECT_NE(text.find("# Individuals kept. (individuals; 4 … 4096)\npopulation = 60\n"),
             std::string::npos)
       << text;
 }
@@ -226,7 +226,7 @@ TEST(FilePrinter, an_empty_list_is_shown_as_a_comment_to_copy) {
 TEST(MarkdownPrinter, has_a_row_for_each_key) {
   const std::string text = markdown_reference(Fish{});
   EXPECT_NE(text.find("## `[search.inner]`"), std::string::npos) << text;
-  EXPECT_NE(text.find("| `population` | int | `60` | individuals; [4, 4096] | Individuals kept. |"),
+  EXPECT_NE(text.find("| `population` | int | `60` | individuals; 4 … 4096 | Individuals kept. |"),
             std::string::npos)
       << text;
   EXPECT_NE(text.find("## `[[fin]]`"), std::string::npos) << text;
@@ -236,7 +236,7 @@ TEST(MarkdownPrinter, has_a_row_for_each_key) {
 TEST(ManPrinter, has_an_entry_for_each_key) {
   const std::string text = man_reference(Fish{});
   EXPECT_NE(text.find(".SS [[fin]]\nOne table for each fin.\n"), std::string::npos) << text;
-  EXPECT_NE(text.find(".TP\n.B population = 60\nIndividuals kept. [individuals; [4, 4096]]\n"),
+  EXPECT_NE(text.find(".TP\n.B population = 60\nIndividuals kept. (individuals; 4 … 4096)\n"),
             std::string::npos)
       << text;
 }
