@@ -70,8 +70,10 @@ int print_reference(const std::string& name) {
   if (name == "gannet.toml.md") text = config::config_markdown();
   if (name == "rig.md")
     text =
-        "# RIG files\n\nThe calibration of two cameras. Made from the program's own description "
-        "by `make docs`; do not edit.\n" +
+        "# RIG files\n\nThe calibration of two cameras. The keys of [left], [right] and "
+        "[right_from_left] must be given, all but distortion, coefficients and time_offset_s; "
+        "the defaults of the others are examples. Made from the program's own description by "
+        "`make docs`; do not edit.\n" +
         config::rig_reference();
   if (name == "subcommands")
     for (const Subcommand& sub : subcommands())
@@ -85,7 +87,7 @@ int print_reference(const std::string& name) {
 std::span<const Subcommand> subcommands() {
   static const std::vector<Subcommand> kTable = [] {
     std::vector<Subcommand> table = {model_build_subcommand(), locate_subcommand(),
-                                     track_subcommand(), map_subcommand()};
+                                     track_subcommand(), map_subcommand(), report_subcommand()};
     const std::vector<Subcommand> online = online_subcommands();
     table.insert(table.end(), online.begin(), online.end());
     return table;
