@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -112,10 +113,13 @@ Result<UnixSocket> UnixSocket::connect(const std::string& name, SocketKind kind)
   if (!address) return address.error();
   Fd fd = make_socket(kind);
   if (!fd.valid()) return system_error("socket", errno);
-  if (::connect(fd.get(), address->get(), address->length) != 0) {
-    return system_error("nobody serves the socket '" + name + "'", errno);
+  // EAGAIN: somebody serves, but newcomers wait already; a tenth of a second is worth the wait.
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    if (::connect(fd.get(), address->get(), address->length) == 0) return UnixSocket(std::move(fd));
+    if (errno != EAGAIN) return system_error("nobody serves the socket '" + name + "'", errno);
+    usleep(5000);
   }
-  return UnixSocket(std::move(fd));
+  return Error{"the server of the socket '" + name + "' does not take newcomers"};
 }
 
 IoResult UnixSocket::send(std::span<const std::byte> bytes) {

@@ -8,6 +8,10 @@ namespace gannet::control {
 using linux_os::IoStatus;
 
 Result<std::unique_ptr<Server>> Server::listen(const std::string& path, const std::string& group) {
+  if (path.starts_with('@')) {
+    return Error{"control.socket: '" + path + "' must be a path: an abstract name has no owner " +
+                 "and no group, anybody could connect"};
+  }
   auto listener = linux_os::UnixListener::listen(path, linux_os::SocketKind::kStream,
                                                  group.empty() ? 0600 : 0660, group);
   if (!listener) return Error{"control.socket: " + listener.error().text};

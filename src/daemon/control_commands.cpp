@@ -209,7 +209,8 @@ Answer ControlCommands::top(const Json&) {
 
 Answer ControlCommands::events(const Json& params) {
   for (const auto& [key, value] : params.items()) {
-    if (!value.is_number_unsigned()) return bad_params("\"" + key + "\" must be a whole number");
+    if (!value.is_number_integer() || value < 0)
+      return bad_params("\"" + key + "\" must be a whole number");
   }
   return reports_->events_json(params.value("since", std::uint64_t{0}),
                                params.value("max", std::size_t{1000}));
@@ -295,9 +296,10 @@ Answer ControlCommands::target(const Json& params) {
     vision::Rectangle& r = choice.rectangle;
     r = {static_cast<int>((*roi)[0]), static_cast<int>((*roi)[1]), static_cast<int>((*roi)[2]),
          static_cast<int>((*roi)[3])};
-    if (r.x < 0 || r.y < 0 || r.width < 1 || r.height < 1 || r.x + r.width > setting_.image_width ||
-        r.y + r.height > setting_.image_height) {
-      return bad_params("the rectangle is not inside the image of " +
+    constexpr int kLeast = 8;  // pixels; as the tracker has it
+    if (r.x < 0 || r.y < 0 || r.width < kLeast || r.height < kLeast ||
+        r.x + r.width > setting_.image_width || r.y + r.height > setting_.image_height) {
+      return bad_params("the rectangle must be 8 × 8 pixels at least and inside the image of " +
                         std::to_string(setting_.image_width) + " × " +
                         std::to_string(setting_.image_height) + " pixels");
     }

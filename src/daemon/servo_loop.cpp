@@ -87,6 +87,7 @@ void ServoLoop::step(TimePoint now, std::int64_t missed, Duration late) {
 
 void ServoLoop::shut_down(TimePoint now) {
   for (auto& setpoint : setpoints_) setpoint.value = 0;
+  report_.outputs = {};  // the light goes out
   send(false, now);
 }
 
@@ -158,8 +159,14 @@ void ServoLoop::supervise(TimePoint now, std::int64_t missed) {
   overrun_watch_.note(static_cast<int>(missed), now);
   if (missed > 0) {
     report_.overruns += static_cast<std::uint64_t>(missed);
-    links_.events->raise(make_event(telemetry::kOverrun, now, static_cast<double>(missed),
+    untold_overruns_ += missed;
+  }
+  // At most once a second: an overloaded machine must not also be flooded with words.
+  if (untold_overruns_ > 0 && now - overruns_told_ >= std::chrono::seconds(1)) {
+    links_.events->raise(make_event(telemetry::kOverrun, now, static_cast<double>(untold_overruns_),
                                     static_cast<double>(report_.overruns)));
+    untold_overruns_ = 0;
+    overruns_told_ = now;
   }
   const safety::Memory before = report_.supervisor;
   const safety::Decision decision = safety::step(safety_, before, inputs_at(now), now);

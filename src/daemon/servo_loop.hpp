@@ -78,6 +78,8 @@ class ServoLoop {
   TimePoint hand_time_ = {};
   TimePoint last_ = {};
   bool internal_fault_ = false;
+  std::int64_t untold_overruns_ = 0;
+  TimePoint overruns_told_ = {};
   SeenTarget newest_;  // found, and not yet acted on
   bool newest_is_new_ = false;
   std::vector<hal::DriveSetpoint> setpoints_;

@@ -56,20 +56,12 @@ class FakeTracker final : public track::TargetTracker {
  public:
   bool choose_model(int index, std::uint32_t id) override {
     if (index < 0 || index >= models) return false;
-    chosen = {.target_id = id,
-              .model = index,
-              .found = true,
-              .state = TrackState::kLocked,
-              .reason = TrackReason::kNone};
+    choose(id, index);
     return true;
   }
   bool choose_rectangle(const vision::Rectangle& r, std::uint32_t id) override {
     if (r.width < 8) return false;
-    chosen = {.target_id = id,
-              .model = -1,
-              .found = true,
-              .state = TrackState::kLocked,
-              .reason = TrackReason::kNone};
+    choose(id, -1);
     return true;
   }
   void choose_none() override { chosen = {}; }
@@ -93,6 +85,15 @@ class FakeTracker final : public track::TargetTracker {
     estimate.state = TrackState::kLost;
     estimate.reason = TrackReason::kNoFrames;
     return estimate;
+  }
+
+  void choose(std::uint32_t id, int model) {
+    chosen = {};
+    chosen.target_id = id;
+    chosen.model = model;
+    chosen.found = true;
+    chosen.state = TrackState::kLocked;
+    chosen.reason = TrackReason::kNone;
   }
 
   int models = 2;

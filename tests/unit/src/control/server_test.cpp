@@ -155,6 +155,12 @@ TEST(Server, who_does_not_read_is_dropped_and_others_are_served) {
   EXPECT_EQ(sut.stop().counters().dropped, 1u);
 }
 
+TEST(Server, refuses_a_name_that_everybody_could_reach) {
+  const auto sut = Server::listen("@gannet-control-test", "");
+  ASSERT_FALSE(sut);
+  EXPECT_NE(sut.error().text.find("must be a path"), std::string::npos);
+}
+
 TEST(Client, says_that_nobody_serves) {
   const test::TemporaryFolder folder;
   const auto sut = Client::connect(folder / "nobody");

@@ -1,0 +1,283 @@
+#include "src/daemon/servo_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "src/daemon/reports.hpp"
+#include "src/telemetry/event_codes.hpp"
+#include "tests/support/daemon_fakes.hpp"
+
+namespace gannet::daemon {
+namespace {
+
+using safety::Cause;
+using safety::Request;
+using safety::State;
+using std::chrono::milliseconds;
+
+constexpr Duration kPeriod = milliseconds(5);
+
+StereoRig rig() {
+  StereoRig rig;
+  Eigen::Matrix3d axes;
+  axes << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  rig.body_from_hand = Transform<Body, Hand>{Eigen::Quaterniond(axes), {0.2, 0, 0}};
+  return rig;
+}
+
+class BrokenVehicle final : public vehicle::Vehicle {
+ public:
+  int motors() const override { return 1; }
+  vehicle::Reach update(const MotionWish&, Permit, Duration,
+                        std::span<hal::DriveSetpoint> setpoints) override {
+    setpoints[0].value = std::numeric_limits<double>::quiet_NaN();
+    return {};
+  }
+  Twist<Body> own_velocity() const override { return {}; }
+  void reset() override {}
+};
+
+class ServoLoopTest : public testing::Test {
+ protected:
+  ServoLoopTest() {
+    facts_.capture_cycles = 1;
+    facts_.vision_cycles = 1;
+    vehicle::VehicleConfig config;
+    config.kind = "rov";
+    vehicle_ = std::move(*vehicle::create_vehicle(config));
+    law_ = std::move(*servo::create_servo_law({}, rig()));
+    make(vehicle_.get());
+  }
+  void make(vehicle::Vehicle* vehicle) {
+    const bool has_motors = vehicle->motors() > 0;
+    sut_ = std::make_unique<ServoLoop>(
+        ServoLoop::Links{vehicle, law_.get(), has_motors ? &bus_ : nullptr,
+                         has_motors ? &drives_ : nullptr, &estop_, &light_, &targets_, &commands_,
+                         &params_, &report_, &events_, &facts_},
+        rig(), safety::SafetyConfig{}, track::FilterConfig{}, servo::ServoParams{}, kPeriod);
+  }
+  const ServoReport& step(int cycles = 1) {
+    for (int i = 0; i < cycles; ++i) {
+      now_ += kPeriod;
+      facts_.last_frame_ns = to_ns(now_);
+      sut_->step(now_);
+    }
+    return report_.read();
+  }
+  void see(double x_m, TrackState state = TrackState::kLocked) {
+    SeenTarget seen;
+    seen.estimate.capture_time = now_ - milliseconds(30);
+    seen.estimate.target_id = 1;
+    seen.estimate.found = true;
+    seen.estimate.state = state;
+    seen.estimate.reason = TrackReason::kNone;
+    seen.estimate.left_from_target.translation = {x_m, 0, 0.6};
+    seen.estimate.covariance = Matrix6d::Identity() * 1e-6;
+    targets_.push(seen);
+  }
+  State state() { return report_.read().supervisor.state; }
+  void ask(Request request) {
+    ServoCommand command;
+    command.request = request;
+    command.number = ++asked_;
+    commands_.push(command);
+    step();
+    EXPECT_EQ(report_.read().served, asked_);
+  }
+  void push_hand(double forward_m_s) {
+    ServoCommand command;
+    command.by_hand = true;
+    command.velocity.linear.x() = forward_m_s;
+    command.number = ++asked_;
+    commands_.push(command);
+  }
+  void start_servoing() {
+    step(2);
+    ask(Request::kArm);
+    for (int i = 0; i < 4; ++i) {
+      see(0.1);
+      step(2);
+    }
+    ASSERT_EQ(state(), State::kServoing);
+  }
+
+  TimePoint now_ = time_from_ns(10'000'000'000);
+  test::FakeBus bus_;
+  test::FakeDrives drives_{6};
+  test::FakeInput estop_;
+  test::FakeOutput light_;
+  std::unique_ptr<vehicle::Vehicle> vehicle_;
+  std::unique_ptr<servo::ServoLaw> law_;
+  SpscRing<SeenTarget> targets_{8};
+  SpscRing<ServoCommand> commands_{8};
+  LatestValue<servo::ServoParams> params_;
+  LatestValue<ServoReport> report_;
+  EventPort events_;
+  SharedFacts facts_;
+  std::unique_ptr<ServoLoop> sut_;
+  std::uint64_t asked_ = 0;
+};
+
+TEST_F(ServoLoopTest, waits_in_standby_with_motors_stopped_whatever_is_seen) {
+  step(2);
+  for (int i = 0; i < 20; ++i) {
+    see(0.2);
+    step(2);
+  }
+  EXPECT_EQ(state(), State::kStandby);
+  EXPECT_FALSE(drives_.enabled);
+  EXPECT_EQ(drives_.largest(), 0);
+}
+
+TEST_F(ServoLoopTest, armed_with_a_locked_target_it_moves) {
+  start_servoing();
+  EXPECT_TRUE(drives_.enabled);
+  EXPECT_GT(drives_.largest(), 0.05);
+  EXPECT_GT(report_.read().error.position_m.x(), 0.05);
+}
+
+TEST_F(ServoLoopTest, the_emergency_stop_stops_the_motors_in_the_same_cycle) {
+  start_servoing();
+  estop_.says = {.level = hal::Level::kHigh};
+  step();
+  EXPECT_EQ(state(), State::kStopped);
+  EXPECT_FALSE(drives_.enabled);
+  EXPECT_EQ(drives_.largest(), 0);
+}
+
+TEST_F(ServoLoopTest, a_press_shorter_than_a_cycle_stops_too_and_release_does_not_start) {
+  start_servoing();
+  estop_.says = {.level = hal::Level::kLow, .rose = true, .fell = true};
+  step();
+  estop_.says = {.level = hal::Level::kLow};
+  see(0.1);
+  step(10);
+  EXPECT_EQ(state(), State::kStopped);
+  EXPECT_FALSE(drives_.enabled);
+}
+
+TEST_F(ServoLoopTest, a_line_that_cannot_be_read_is_a_stop) {
+  start_servoing();
+  estop_.says = {.level = hal::Level::kUnknown};
+  step();
+  EXPECT_EQ(report_.read().supervisor.cause, Cause::kEstopUnknown);
+  EXPECT_FALSE(drives_.enabled);
+}
+
+TEST_F(ServoLoopTest, holds_when_the_estimate_is_too_old) {
+  start_servoing();
+  step(70);  // 350 ms without an image
+  EXPECT_EQ(state(), State::kHolding);
+  EXPECT_EQ(report_.read().outputs.permit, Permit::kHoldOnly);
+}
+
+TEST_F(ServoLoopTest, faults_when_a_drive_is_silent_or_the_bus_is_down) {
+  start_servoing();
+  drives_.says = {.all_alive = false, .first_bad = 2};
+  step();
+  EXPECT_EQ(report_.read().supervisor.cause, Cause::kDrivesSilent);
+  EXPECT_FALSE(drives_.enabled);
+  drives_.says = {.all_alive = true};
+  ask(Request::kReset);
+  EXPECT_EQ(state(), State::kStandby);
+  bus_.says = hal::BusState::kDown;
+  step();
+  EXPECT_EQ(report_.read().outputs.obstacle, Cause::kBusDown);
+}
+
+TEST_F(ServoLoopTest, a_person_steers_by_hand_until_the_time_out) {
+  step(2);
+  ask(Request::kArm);
+  for (int i = 0; i < 20; ++i) {
+    push_hand(0.3);
+    step(2);
+  }
+  EXPECT_TRUE(report_.read().outputs.by_hand);
+  EXPECT_GT(drives_.largest(), 0.05);
+  step(62);  // 310 ms of silence
+  EXPECT_FALSE(report_.read().outputs.by_hand);
+  EXPECT_NE(state(), State::kServoing);
+}
+
+TEST_F(ServoLoopTest, the_hand_moves_nothing_without_permit) {
+  step(2);
+  for (int i = 0; i < 20; ++i) {
+    push_hand(0.3);
+    step();
+  }
+  EXPECT_FALSE(drives_.enabled);
+  EXPECT_EQ(drives_.largest(), 0);
+}
+
+TEST_F(ServoLoopTest, a_setpoint_that_is_no_number_never_reaches_a_motor) {
+  BrokenVehicle broken;
+  make(&broken);
+  step(2);
+  ask(Request::kArm);
+  EXPECT_FALSE(drives_.enabled);
+  step();
+  EXPECT_EQ(state(), State::kFaulted);
+  EXPECT_EQ(report_.read().supervisor.cause, Cause::kInternalFault);
+}
+
+TEST_F(ServoLoopTest, too_many_overruns_are_a_fault) {
+  start_servoing();
+  now_ += 30 * kPeriod;
+  sut_->step(now_, 29);
+  EXPECT_EQ(report_.read().overruns, 29u);
+  EXPECT_EQ(report_.read().supervisor.cause, Cause::kOverruns);
+}
+
+TEST_F(ServoLoopTest, a_new_goal_holds_from_the_next_cycle_on) {
+  start_servoing();
+  servo::ServoParams params;
+  params.goal_x_m = 0.1;
+  params.goal_z_m = 0.6;
+  params_.write(params);
+  see(0.1);
+  step();
+  EXPECT_LT(report_.read().error.position_m.norm(), 0.05);
+}
+
+TEST_F(ServoLoopTest, without_a_vehicle_there_are_poses_and_no_arming) {
+  vehicle_ = std::move(*vehicle::create_vehicle({}));
+  make(vehicle_.get());
+  step(2);
+  for (int i = 0; i < 4; ++i) {
+    see(0.1);
+    step(2);
+  }
+  EXPECT_TRUE(report_.read().target.valid);
+  EXPECT_NEAR(report_.read().target.left_from_target.translation.x(), 0.1, 1e-3);
+  ask(Request::kArm);
+  EXPECT_EQ(report_.read().refused, Cause::kNoVehicle);
+  EXPECT_EQ(state(), State::kStandby);
+}
+
+TEST_F(ServoLoopTest, each_estimate_is_timed_once_to_the_bus) {
+  start_servoing();
+  const auto before = report_.read().frame_to_can.total();
+  see(0.1);
+  step(5);
+  EXPECT_EQ(report_.read().frame_to_can.total(), before + 1);
+  EXPECT_EQ(report_.read().exposure_to_can.total(), before + 1);
+}
+
+TEST_F(ServoLoopTest, the_end_of_the_program_stops_the_motors) {
+  start_servoing();
+  sut_->shut_down(now_ + kPeriod);
+  EXPECT_FALSE(drives_.enabled);
+  EXPECT_EQ(drives_.largest(), 0);
+}
+
+TEST_F(ServoLoopTest, tells_every_change_of_state_once) {
+  start_servoing();
+  int changes = 0;
+  for (Event event; events_.take(event);) changes += event.code == telemetry::kStateChanged;
+  EXPECT_EQ(changes, 3);  // standby, armed, servoing
+  EXPECT_EQ(word_of("state", 3), "servoing");
+}
+
+}  // namespace
+}  // namespace gannet::daemon
