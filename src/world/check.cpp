@@ -84,14 +84,15 @@ double settle_s(const Trace& trace, const Window& window) {
   return since - start;
 }
 
-// A row that brings a newly heard frame; others repeat what was heard before.
+// Rows that bring a newly heard frame; others repeat what was heard before, or say that there was
+// no frame (number 0).
 template <class Visit>
 void each_frame(const Trace& trace, const Window& window, Visit visit) {
   std::uint64_t last = 0;
   for (const TraceRow& row : trace.rows) {
-    const bool fresh = row.heard.frame != last;
+    if (row.heard.frame == 0 || row.heard.frame == last) continue;
     last = row.heard.frame;
-    if (fresh && inside(row, window)) visit(row);
+    if (inside(row, window)) visit(row);
   }
 }
 

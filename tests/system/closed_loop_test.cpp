@@ -58,6 +58,10 @@ TEST(ClosedLoop, loses_and_finds_its_target) { expect_all_passed("rov_lost_and_f
 TEST(ClosedLoop, stops_when_a_drive_is_silent) { expect_all_passed("rov_drive_silent"); }
 TEST(ClosedLoop, holds_while_the_cameras_are_blind) { expect_all_passed("rov_camera_blind"); }
 
+TEST(ClosedLoop, holds_against_a_current) { expect_all_passed("rov_current"); }
+TEST(ClosedLoop, follows_with_frames_missing) { expect_all_passed("rov_dropped_frames"); }
+TEST(ClosedLoop, follows_the_papers_path) { expect_all_passed("rov_station_keeping"); }
+
 TEST(ClosedLoop, gives_poses_without_a_vehicle) { expect_all_passed("poses_only"); }
 
 TEST(ClosedLoop, repeats_bit_for_bit) {
