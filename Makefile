@@ -90,6 +90,7 @@ $B/obj/%_avx2.o: TARGET_FLAGS := -O3 -mavx2
 $B/obj/%_avx512.o: TARGET_FLAGS := -O3 -mavx512f -mavx512bw -mavx512vl -mavx512vnni
 $B/obj/%_neon.o: TARGET_FLAGS := -O3
 $B/obj/%_scalar.o: TARGET_FLAGS := -O3
+$B/obj/src/vision/yuv_rows.o: TARGET_FLAGS := -O3
 
 $B/obj/%.o: %.cpp $B/flags
 	@mkdir -p $(@D)
@@ -220,6 +221,6 @@ clean:
 
 .PHONY: all tests help deps check run-tests asan tsan clang arm64 format docs install clean
 
-include tests/support/assets.mk
+include tests/support/assets.mk tests/support/bench.mk
 
 -include $(shell find $B -name '*.d' 2>/dev/null)

@@ -40,6 +40,8 @@ struct EyePlanes {
   int height = 0;
 };
 
+struct PlaneKernels;  // kernels/planes.hpp
+
 class PreparedFrame {
  public:
   PreparedFrame(int width, int height, PlaneNeeds needs);
@@ -63,6 +65,7 @@ class PreparedFrame {
   int width_;
   int height_;
   PlaneNeeds needs_;
+  const PlaneKernels& kernels_;
   std::array<Buffers, 2> buffers_;
   std::array<EyePlanes, 2> eyes_;
   std::array<std::vector<std::uint8_t>, 3> raw_;  // one eye's Y U V before smoothing
