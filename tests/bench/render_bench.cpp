@@ -1,22 +1,13 @@
 // Milliseconds of one core for a stereo pair at 640×480: three scenes, from the everyday one to the
 // heaviest. Thread CPU time, so that other work on the machine does not count.
-#include <algorithm>
-#include <cstdio>
-#include <ctime>
-
 #include "src/world/renderer.hpp"
 #include "src/world/texture_made.hpp"
+#include "tests/bench/benches.hpp"
 
+namespace gannet::bench {
 namespace {
 
-using namespace gannet;
 using namespace gannet::world;
-
-double cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
 
 StereoRig rig_640() {
   StereoRig rig;
@@ -42,33 +33,36 @@ Scene scene_before(double slant_rad) {
   return scene;
 }
 
-void measure(const char* what, Renderer& renderer, const Scene& scene) {
+void measure(const char* what, Renderer& renderer, const Scene& scene, int frames,
+             Results& results) {
   hal::Image left(640, 480, hal::PixelFormat::kYuyv), right = left;
   Serial serial;
-  constexpr int kFrames = 15;
-  double least = 1e9, sum = 0;
-  for (int i = 0; i < kFrames; ++i) {
-    const double start = cpu_ms();
+  std::vector<double> ms;
+  for (int i = 0; i < frames; ++i) {
+    const double start = thread_cpu_ns();
     renderer.render(scene, {}, i / 30.0, static_cast<std::uint64_t>(i), serial, target_of(left),
                     target_of(right));
-    const double spent = cpu_ms() - start;
-    least = std::min(least, spent), sum += spent;
+    ms.push_back((thread_cpu_ns() - start) / 1e6);
   }
-  std::printf("render pair 640x480  %-34s  mean %5.1f ms  least %5.1f ms\n", what, sum / kFrames,
-              least);
+  results.add({what, "ms per pair", spread_of(ms), frames, {}, ""});
 }
 
 }  // namespace
 
-int main() {
+void bench_render(const Options& options, Results& results) {
+  results.group("the simulated world's renderer",
+                "A stereo pair of 640 x 480 on one core; a frame at 30 Hz has 33 ms.");
+  const int frames = options.quick ? 1 : 15;
   std::vector<Texture> textures;
-  textures.emplace_back(pebbles_picture(512, 3), Texture::Edge::kTile);
-  textures.emplace_back(noise_picture(256, 4), Texture::Edge::kClamp);
+  textures.emplace_back(pebbles_picture(options.quick ? 64 : 512, 3), Texture::Edge::kTile);
+  textures.emplace_back(noise_picture(options.quick ? 64 : 256, 4), Texture::Edge::kClamp);
   Renderer renderer(rig_640(), std::move(textures), {}, 1);
-  measure("target before a wall", renderer, scene_before(0));
-  measure("target over a slanted bottom", renderer, scene_before(1.1));
+  measure("target before a wall", renderer, scene_before(0), frames, results);
+  measure("target over a slanted bottom", renderer, scene_before(1.1), frames, results);
   Scene heavy = scene_before(1.1);
   heavy.light.ambient = 0.5, heavy.light.caustics = 0.7;
   heavy.particles.count = 400;
-  measure("the same, caustics, 400 particles", renderer, heavy);
+  measure("the same, caustics, 400 particles", renderer, heavy, frames, results);
 }
+
+}  // namespace gannet::bench
