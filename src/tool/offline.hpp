@@ -9,5 +9,6 @@ Subcommand model_build_subcommand();  // photo → .gannet file
 Subcommand locate_subcommand();       // one stereo pair → pose
 Subcommand track_subcommand();        // a folder of pairs → a table of poses
 Subcommand map_subcommand();          // the fitness over x and y
+Subcommand report_subcommand();       // recorded runs → a page
 
 }  // namespace gannet::tool
