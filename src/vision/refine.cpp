@@ -42,23 +42,38 @@ struct Sample {
   Vector2d gradient;  // per pixel
 };
 
-// Bilinear value; gradient of central differences, bilinear too.
-bool sample(const std::uint8_t* plane, int width, int height, const Vector2d& at, Sample& out) {
-  const int x = static_cast<int>(std::floor(at.x()));
-  const int y = static_cast<int>(std::floor(at.y()));
-  if (x < 1 || y < 1 || x + 2 >= width || y + 2 >= height) return false;
-  const double a = at.x() - x;
-  const double b = at.y() - y;
-  const std::uint8_t* p = plane + y * width + x;
-  const auto mix = [&](auto&& f) {
-    return (1 - b) * ((1 - a) * f(p) + a * f(p + 1)) +
-           b * ((1 - a) * f(p + width) + a * f(p + width + 1));
-  };
-  out.value = mix([](const std::uint8_t* q) { return static_cast<double>(*q); });
-  out.gradient.x() = mix([](const std::uint8_t* q) { return 0.5 * (q[1] - q[-1]); });
-  out.gradient.y() = mix([width](const std::uint8_t* q) { return 0.5 * (q[width] - q[-width]); });
-  return true;
-}
+// A place between four pixels, the same in each channel's plane.
+class Place {
+ public:
+  // False: too near to the border, or outside.
+  bool set(int width, int height, const Vector2d& at) {
+    if (!(at.x() >= 1 && at.y() >= 1 && at.x() < width - 2 && at.y() < height - 2)) return false;
+    const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
+    a_ = at.x() - x;
+    b_ = at.y() - y;
+    width_ = width;
+    offset_ = y * width + x;
+    return true;
+  }
+  // Bilinear value; gradient of central differences, bilinear too.
+  Sample sample(const std::uint8_t* plane) const {
+    const std::uint8_t* p = plane + offset_;
+    const int w = width_;
+    const auto mix = [&](auto&& f) {
+      return (1 - b_) * ((1 - a_) * f(p) + a_ * f(p + 1)) +
+             b_ * ((1 - a_) * f(p + w) + a_ * f(p + w + 1));
+    };
+    Sample out;
+    out.value = mix([](const std::uint8_t* q) { return static_cast<double>(*q); });
+    out.gradient.x() = mix([](const std::uint8_t* q) { return 0.5 * (q[1] - q[-1]); });
+    out.gradient.y() = mix([w](const std::uint8_t* q) { return 0.5 * (q[w] - q[-w]); });
+    return out;
+  }
+
+ private:
+  double a_ = 0, b_ = 0;
+  int width_ = 0, offset_ = 0;
+};
 
 // Weighted sums of one channel of one eye: residuals I − a·M − b and their derivatives by P
 // parameters, with a and b eliminated at the end.
@@ -66,7 +81,7 @@ template <int P>
 struct ChannelSums {
   double w = 0, m = 0, mm = 0, i = 0, im = 0, ii = 0;
   Matrix<double, P, 1> j = Matrix<double, P, 1>::Zero(), jm = j, ji = j;
-  Matrix<double, P, P> jj = Matrix<double, P, P>::Zero();
+  Matrix<double, P, P> jj = Matrix<double, P, P>::Zero();  // the lower half
 
   void add(double weight, double model, double image, const Matrix<double, P, 1>& slope) {
     w += weight;
@@ -78,7 +93,10 @@ struct ChannelSums {
     j += weight * slope;
     jm += weight * model * slope;
     ji += weight * image * slope;
-    jj.noalias() += weight * slope * slope.transpose();
+    const Matrix<double, P, 1> weighted = weight * slope;
+    for (int col = 0; col < P; ++col) {
+      for (int row = col; row < P; ++row) jj(row, col) += weighted(row) * slope(col);
+    }
   }
 
   struct Fit {
@@ -136,10 +154,11 @@ struct Problem {
         if (!project(camera, p, at)) continue;
         const Matrix<double, 2, P> pixel_by = at.by_point * by;
         const double base = k < points.inside_padded ? 1.0 : options.outside_weight;
+        Place place;
+        if (!place.set(planes.width, planes.height, at.pixel)) continue;
         const float model[3] = {points.colour[i].y, points.colour[i].u, points.colour[i].v};
         for (std::size_t c = 0; c < 3; ++c) {
-          Sample s;
-          if (!sample(planes.smooth[c], planes.width, planes.height, at.pixel, s)) break;
+          const Sample s = place.sample(planes.smooth[c]);
           const std::size_t ce = static_cast<std::size_t>(3 * eye) + c;
           const auto m = static_cast<double>(model[c]);
           double weight = base;
