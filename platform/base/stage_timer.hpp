@@ -20,17 +20,19 @@ class LogHistogram {
     const auto bucket = static_cast<std::size_t>(bucket_of(d.count()));
     counts_[bucket] += 1;
     total_ += 1;
+    max_ = std::max(max_, d);
   }
-  // The upper edge of the bucket below which this share (0 … 1) of all lies; 0 when empty.
+  // The upper edge of the bucket below which this share (0 … 1) of all lies, but never more than
+  // the largest of all; 0 when empty.
   Duration percentile(double share) const {
     if (total_ == 0) return {};
     const auto wanted = static_cast<std::uint64_t>(share * static_cast<double>(total_));
     std::uint64_t seen = 0;
     for (int i = 0; i < kBuckets; ++i) {
       seen += counts_[static_cast<std::size_t>(i)];
-      if (seen > wanted || seen == total_) return Duration(upper_edge(i));
+      if (seen > wanted || seen == total_) return std::min(max_, Duration(upper_edge(i)));
     }
-    return Duration(upper_edge(kBuckets - 1));
+    return max_;
   }
   std::uint64_t total() const { return total_; }
   std::uint32_t count(int bucket) const { return counts_[static_cast<std::size_t>(bucket)]; }
@@ -54,6 +56,7 @@ class LogHistogram {
  private:
   std::array<std::uint32_t, kBuckets> counts_ = {};
   std::uint64_t total_ = 0;
+  Duration max_ = {};
 };
 
 struct StageStats {

@@ -306,7 +306,9 @@ void ServoLoop::tell_devices(TimePoint now) {
   }
   const hal::BusState bus = links_.bus->state();
   if (bus != report_.bus) {
-    links_.events->raise(make_event(telemetry::kBusChanged, now, static_cast<double>(bus)));
+    Event event = make_event(telemetry::kBusChanged, now, static_cast<double>(bus));
+    if (bus == hal::BusState::kGood) event.severity = Severity::kNotice;
+    links_.events->raise(event);
   }
   report_.bus = bus;
   const hal::DriveGroupHealth before = report_.drives;

@@ -2,6 +2,8 @@
 // starts, answers, stops, and what it says when something is wrong.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,6 +18,7 @@
 
 #include "hal/camera/image.hpp"
 #include "platform/base/random.hpp"
+#include "platform/linux/fd.hpp"
 #include "src/control/client.hpp"
 #include "src/image_file/image_file.hpp"
 #include "src/world/daemon_process.hpp"
@@ -264,6 +267,34 @@ TEST_F(GannetdTest, ends_of_interrupts_and_events_are_told) {
   for (int i = 0; i < 2000 && daemon.running(); ++i) std::this_thread::sleep_for(milliseconds(5));
   EXPECT_FALSE(daemon.running());
   EXPECT_EQ(daemon.exit_code(), 0);
+}
+
+TEST_F(GannetdTest, the_service_manager_is_told_and_fed) {
+  const std::string path = folder_ / "notify";
+  const linux_os::Fd manager(socket(AF_UNIX, SOCK_DGRAM, 0));
+  sockaddr_un address = {};
+  address.sun_family = AF_UNIX;
+  path.copy(address.sun_path, sizeof address.sun_path - 1);
+  ASSERT_EQ(bind(manager.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  setenv("NOTIFY_SOCKET", path.c_str(), 1);
+  setenv("WATCHDOG_USEC", "300000", 1);
+  DaemonProcess daemon = start();
+  unsetenv("NOTIFY_SOCKET");
+  unsetenv("WATCHDOG_USEC");
+  const timeval patience = {10, 0};
+  setsockopt(manager.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  const auto next = [&] {
+    char text[64];
+    const ssize_t n = recv(manager.get(), text, sizeof text, 0);
+    return std::string(text, n > 0 ? static_cast<std::size_t>(n) : 0);
+  };
+  EXPECT_EQ(next(), "READY=1");
+  EXPECT_EQ(next(), "WATCHDOG=1");
+  EXPECT_EQ(next(), "WATCHDOG=1");
+  EXPECT_EQ(daemon.stop(seconds(10)), 0);
+  std::string last = next();
+  while (last == "WATCHDOG=1") last = next();
+  EXPECT_EQ(last, "STOPPING=1");
 }
 
 TEST_F(GannetdTest, what_it_records_can_be_replayed) {

@@ -47,6 +47,13 @@ TEST(LogHistogram, percentiles_are_right_within_a_sixteenth) {
   }
 }
 
+TEST(LogHistogram, the_last_percentile_is_the_largest_of_all) {
+  LogHistogram sut;
+  for (const int us : {100, 145, 130}) sut.add(microseconds(us));
+  EXPECT_EQ(sut.percentile(1), microseconds(145));
+  EXPECT_EQ(sut.percentile(0.99), microseconds(145));
+}
+
 TEST(LogHistogram, is_zero_when_empty) { EXPECT_EQ(LogHistogram().percentile(0.5).count(), 0); }
 
 TEST(StageTimer, laps_measure_from_the_one_before) {
