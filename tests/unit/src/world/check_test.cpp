@@ -74,6 +74,15 @@ TEST(Check, a_motion_under_the_pressed_estop_is_no_stop) {
   EXPECT_FALSE(judge(*check, trace).passed);
 }
 
+TEST(Check, a_time_without_frames_is_no_frame) {
+  Trace trace = example();
+  for (std::size_t i = 0; i < trace.rows.size(); ++i) {
+    trace.rows[i].heard.found = true;
+    if (i % 50 > 40) trace.rows[i].heard = {};  // coasting: no frame to speak of
+  }
+  EXPECT_TRUE(judge(*parse_check("found_share = 1"), trace).passed);
+}
+
 TEST(Check, what_cannot_be_said_fails) {
   const Trace nothing;
   for (const char* text : {"rms_x_mm < 10", "found_share > 0", "fitness > 0", "settle_s < 100",
