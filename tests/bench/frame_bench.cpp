@@ -64,7 +64,7 @@ void bench_prepare(const std::vector<Pair>& pairs, const Options& options, Resul
                             return 1.0;
                           }});
   }
-  const auto times = interleave(contenders, options.turns());
+  const auto times = interleave(contenders, options.turns(), Caches::kAsFound);
   results.add({"memcpy of the pair", "ms", spread_of(in_ms(times[0])), options.turns(), {}, ""});
   for (std::size_t i = 1; i < times.size(); ++i) {
     results.add({contenders[i].name,
@@ -96,7 +96,7 @@ void bench_refine(const ClutteredScene& scene, const std::vector<Pair>& pairs,
                      consume(got.left_from_target.translation.z());
                      return 1.0;
                    }}},
-                 options.turns());
+                 options.turns(), Caches::kAsFound);
   results.add({"refinement of one pose",
                "ms",
                spread_of(in_ms(times[1])),

@@ -147,7 +147,8 @@ void bench_kernels(const Options& options, Results& results) {
       "evolution proposed while it searched the same frame, another 16 for each contender and "
       "turn. reference: "
       "doubles straight from the equations; for kernels that sample, its whole evaluation less its "
-      "projection. Bare loads: the same cells at ready-made indices read from memory, summed.");
+      "projection. Bare loads: the same cells at ready-made indices read from memory, summed. "
+      "Each turn's work is done once untimed before: caches are as warm as a search keeps them.");
   const ClutteredScene scene(options.width(), options.height());
   const int turns = options.turns();
   const Workload work = model_workload(scene, 500, options.candidates(), false);

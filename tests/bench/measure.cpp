@@ -42,13 +42,16 @@ std::vector<double> ratios_of(const std::vector<double>& above, const std::vecto
   return out;
 }
 
-std::vector<std::vector<double>> interleave(const std::vector<Contender>& contenders, int turns) {
+std::vector<std::vector<double>> interleave(const std::vector<Contender>& contenders, int turns,
+                                            Caches caches) {
   std::vector<std::vector<double>> out(contenders.size());
   for (int turn = -1; turn < turns; ++turn) {
     for (std::size_t c = 0; c < contenders.size(); ++c) {
-      const double start = thread_cpu_ns();
       // Each its own data in a turn: none may find what the one before has just loaded.
-      const double units = contenders[c].work(std::max(turn, 0) + 3 * static_cast<int>(c));
+      const int data = std::max(turn, 0) + 3 * static_cast<int>(c);
+      if (caches == Caches::kWarm) contenders[c].work(data);
+      const double start = thread_cpu_ns();
+      const double units = contenders[c].work(data);
       const double spent = thread_cpu_ns() - start;
       if (turn >= 0) out[c].push_back(spent / units);
     }

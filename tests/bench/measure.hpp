@@ -32,7 +32,12 @@ struct Contender {
   std::function<double(int data)> work;
 };
 
+// kWarm: the same work once before, untimed. For what a search does thousands of times a frame in
+// the same images; without it a contender's time is that of the caches, which hang on the order.
+enum class Caches { kWarm, kAsFound };
+
 // Nanoseconds of CPU per unit, for each contender and turn; one turn before them warms up.
-std::vector<std::vector<double>> interleave(const std::vector<Contender>& contenders, int turns);
+std::vector<std::vector<double>> interleave(const std::vector<Contender>& contenders, int turns,
+                                            Caches caches = Caches::kWarm);
 
 }  // namespace gannet::bench
