@@ -221,6 +221,6 @@ clean:
 
 .PHONY: all tests help deps check run-tests asan tsan clang arm64 format docs install clean
 
-include tests/support/assets.mk tests/support/bench.mk
+include tests/support/assets.mk tests/support/bench.mk tests/support/demo.mk
 
 -include $(shell find $B -name '*.d' 2>/dev/null)

@@ -67,14 +67,23 @@ Result<ReportContent> read_content(const Arguments& arguments) {
   return content;
 }
 
+// As good as goes into what a README should weigh.
+Result<std::vector<std::uint8_t>> small_jpeg(const hal::Image& image) {
+  constexpr std::size_t kMostBytes = 120'000;
+  for (int quality = 90; quality > 30; quality -= 5) {
+    auto jpeg = jpeg_of(image, quality);
+    if (!jpeg || jpeg->size() <= kMostBytes) return jpeg;
+  }
+  return jpeg_of(image, 30);
+}
+
 Result<void> write_picture(const ReportRun& run, const std::string& path) {
-  constexpr int kQuality = 72;
   const auto pictures = run_pictures(run, 2);
   if (!pictures) return pictures.error();
   if (pictures->size() < 2)
     return Error{"--picture: " + run.folder +
                  " holds less than two frames with the target found; record with --keep-every"};
-  const auto jpeg = jpeg_of(before_and_after(pictures->front(), pictures->back()), kQuality);
+  const auto jpeg = small_jpeg(before_and_after(pictures->front(), pictures->back()));
   if (!jpeg) return jpeg.error();
   return linux_os::write_file(path, *jpeg);
 }

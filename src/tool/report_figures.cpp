@@ -83,6 +83,24 @@ std::string drops(const ReportRun& run) {
   return count_at(r, "cameras/lost") + " / " + number(camera, 0) + " / " + number(vision, 0);
 }
 
+// The first column's name, then a column for each run.
+std::vector<std::string> header_of(const std::vector<ReportRun>& runs, const char* first) {
+  std::vector<std::string> header = {first};
+  for (const ReportRun& run : runs)
+    header.push_back((run.stepped ? "stepped, " : "live, ") +
+                     number(number_at(run.result, "duration_s"), 0) + " s");
+  return header;
+}
+
+double servo_cycles(const ReportRun& run) {
+  const Json* loops = member_at(run.result, "daemon/loops");
+  if (loops == nullptr || !loops->is_array()) return std::nan("");
+  for (const Json& loop : *loops)
+    if (const Json* name = member_at(loop, "name"); name != nullptr && *name == "servo")
+      return number_at(loop, "cycles");
+  return std::nan("");
+}
+
 struct Row {
   const char* name;
   std::function<std::string(const ReportRun&)> cell;
@@ -130,7 +148,7 @@ std::vector<Row> figure_rows() {
        }},
       {"servo cycles / overruns",
        [](Run r) {
-         return number(static_cast<double>(r.time_s.size()), 0) + " / " +
+         return number(servo_cycles(r), 0) + " / " +
                 count_at(r.result, "daemon/drops/servo_overruns");
        }},
       {"pairs given by the cameras", [](Run r) { return count_at(r.result, "cameras/frames"); }},
@@ -153,11 +171,7 @@ double held_from_s(const ReportRun& run) {
 }
 
 report::Table figures_table(const std::vector<ReportRun>& runs) {
-  std::vector<std::string> header = {"figure"};
-  for (const ReportRun& run : runs)
-    header.push_back((run.stepped ? "stepped, " : "live, ") +
-                     number(number_at(run.result, "duration_s"), 0) + " s");
-  report::Table table(header);
+  report::Table table(header_of(runs, "figure"));
   for (const Row& row : figure_rows()) {
     std::vector<std::string> cells = {row.name};
     for (const ReportRun& run : runs) cells.push_back(row.cell(run));
@@ -167,7 +181,9 @@ report::Table figures_table(const std::vector<ReportRun>& runs) {
 }
 
 report::Table checks_table(const ReportRun& run) {
-  report::Table table({"check", "measured", "verdict"});
+  std::vector<std::string> header = {"check", "measured"};
+  if (run.stepped) header.push_back("verdict");  // a surplus cell is dropped
+  report::Table table(header);
   const Json* checks = member_at(run.result, "checks");
   if (checks == nullptr || !checks->is_array()) return table;
   const auto word = [](const Json& check, const char* key) {
@@ -201,12 +217,15 @@ report::Table stages_table(const ReportRun& run) {
   return table;
 }
 
-report::Table drops_table(const ReportRun& run) {
-  report::Table table({"count", "of this run"});
-  const Json* drops = member_at(run.result, "daemon/drops");
-  if (drops == nullptr || !drops->is_object()) return table;
-  for (const auto& [name, count] : drops->items())
-    if (count.is_number()) table.add({name, number(count.get<double>(), 0)});
+report::Table counts_table(const std::vector<ReportRun>& runs) {
+  report::Table table(header_of(runs, "count"));
+  const Json* names = member_at(runs.front().result, "daemon/drops");
+  if (names == nullptr || !names->is_object()) return table;
+  for (const auto& [name, count] : names->items()) {
+    std::vector<std::string> cells = {name};
+    for (const ReportRun& run : runs) cells.push_back(count_at(run.result, "daemon/drops/" + name));
+    table.add(std::move(cells));
+  }
   return table;
 }
 

@@ -10,9 +10,9 @@
 namespace gannet::tool {
 
 report::Table figures_table(const std::vector<ReportRun>& runs);
-report::Table checks_table(const ReportRun& run);  // pass or FAIL
+report::Table checks_table(const ReportRun& run);  // with verdicts where they decide: stepped
 report::Table stages_table(const ReportRun& run);  // of the daemon's loops
-report::Table drops_table(const ReportRun& run);
+report::Table counts_table(const std::vector<ReportRun>& runs);
 
 // From where on the run counts as holding: settled, or its second half if it never was.
 double held_from_s(const ReportRun& run);

@@ -41,10 +41,13 @@ Result<void> add_pictures(HtmlReport& page, const ReportRun& run) {
   page.subheading("What the cameras saw");
   page.paragraph(
       "Left and right image as the daemon got them, with the outline of the model (magenta) and "
-      "its axes (x red, y green, z blue) at the pose that it recognised in this pair alone.");
-  for (const ReportPicture& picture : *pictures) {
-    const auto added = add_picture(page, picture.image, caption_of(picture));
+      "its axes (x red, y green, z blue) at the pose that it recognised in this pair, before the "
+      "filter.");
+  for (std::size_t i = 0; i < pictures->size(); ++i) {
+    if (i % 2 == 0) page.begin_row();
+    const auto added = add_picture(page, (*pictures)[i].image, caption_of((*pictures)[i]));
     if (!added) return added;
+    if (i % 2 == 1 || i + 1 == pictures->size()) page.end_row();
   }
   return {};
 }
@@ -67,16 +70,14 @@ void add_timing(HtmlReport& page, const ReportRun& run) {
                     : latency_plot(run, "servo_jitter", "Servo jitter: woken late", "µs", 1000),
         ""}});
   if (!run.stepped) page.table(stages_table(run), "Stages of the daemon's loops.");
-  page.table(drops_table(run), "The daemon's own counts.");
 }
 
 Result<void> add_run(HtmlReport& page, const ReportRun& run) {
   page.heading((run.stepped ? "Stepped run: " : "Live run: ") + run.scenario());
-  std::string words = text_at(run.result, "description") + ". One run of " +
-                      number(number_at(run.result, "duration_s"), 1) + " s at " +
-                      number(1 / (run.time_s[1] - run.time_s[0]), 0) +
-                      " servo cycles a second, seed " + number(number_at(run.result, "seed"), 0) +
-                      ", done in " + number(number_at(run.result, "host_s"), 0) + " s. ";
+  std::string words = "To " + text_at(run.result, "description") + ". One run of " +
+                      number(number_at(run.result, "duration_s"), 1) + " s, seed " +
+                      number(number_at(run.result, "seed"), 0) + ", done in " +
+                      number(number_at(run.result, "host_s"), 0) + " s. ";
   words += run.stepped ? "The world gave the time step by step: it repeats bit for bit."
                        : "The daemon's threads ran by the machine's clock; its checks are told "
                          "and decide nothing, because they hang on the machine's load.";
@@ -92,7 +93,7 @@ Result<void> add_run(HtmlReport& page, const ReportRun& run) {
       number(held_from_s(run), 1) + " s on.");
   row_of_plots(page, {{error_plot(run), ""}, {held_error_plot(run), ""}});
   row_of_plots(page, {{path_from_behind(run),
-                       "P001's path of the target, and the point before the "
+                       "The target's path, and the point before the "
                        "hand that is to coincide with it."},
                       {path_from_above(run), ""}});
   row_of_plots(page, {{yaw_plot(run), ""}, {throttle_plot(run), ""}});
@@ -141,6 +142,8 @@ Result<HtmlReport> report_page(const ReportContent& content) {
     if (auto added = add_run(page, run); !added) return added.error();
   if (content.stereo)
     if (auto added = add_stereo(page, *content.stereo); !added) return added.error();
+  page.heading("Counts");
+  page.table(counts_table(content.runs), "What the daemon counted: frames, losses, CAN.");
   return page;
 }
 
