@@ -7,6 +7,8 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
+#include <memory>
 
 #include "platform/linux/fd.hpp"
 
@@ -27,6 +29,20 @@ bool write_all(int fd, std::span<const std::uint8_t> bytes) {
 std::string temporary_beside(const std::string& path) {
   static std::atomic<unsigned> calls{0};
   return path + "." + std::to_string(::getpid()) + "." + std::to_string(calls++) + ".new";
+}
+
+// Devices, pipes and terminals keep their name and take what is written; nothing of theirs is lost
+// when it ends halfway.
+Result<void> write_into(const std::string& path, std::span<const std::uint8_t> bytes) {
+  const Fd file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  if (file.valid() && write_all(file.get(), bytes)) return {};
+  return system_error(path + ": cannot write", errno);
+}
+
+// Where the bytes belong: a symbolic link stays, the file behind it is replaced.
+std::string behind_links(const std::string& path) {
+  const std::unique_ptr<char, void (*)(void*)> real(::realpath(path.c_str(), nullptr), &std::free);
+  return real ? std::string(real.get()) : path;
 }
 
 }  // namespace
@@ -55,11 +71,15 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::size_t
 }
 
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
-  const std::string temporary = temporary_beside(path);
+  struct stat about = {};
+  const bool exists = ::stat(path.c_str(), &about) == 0;
+  if (exists && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode)) return write_into(path, bytes);
+  const std::string final_path = exists ? behind_links(path) : path;
+  const std::string temporary = temporary_beside(final_path);
   const Fd file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (!file.valid()) return system_error(path + ": cannot create a file beside it", errno);
   const bool done = write_all(file.get(), bytes) && ::fsync(file.get()) == 0 &&
-                    std::rename(temporary.c_str(), path.c_str()) == 0;
+                    std::rename(temporary.c_str(), final_path.c_str()) == 0;
   if (done) return {};
   const Error error = system_error(path + ": cannot write", errno);
   ::unlink(temporary.c_str());

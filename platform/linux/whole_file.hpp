@@ -16,7 +16,8 @@ namespace gannet::linux_os {
 Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::size_t max_bytes);
 
 // Writes a temporary file beside path, flushes it and renames it over path: on failure the old
-// file stays as it was.
+// file stays as it was. What is no regular file (a device, a pipe) is written into, not replaced; a
+// symbolic link stays.
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes);
 Result<void> write_file(const std::string& path, const std::string& text);
 

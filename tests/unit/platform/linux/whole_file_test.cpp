@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -52,6 +54,29 @@ TEST_F(WholeFile, a_failed_write_leaves_no_trace) {
   EXPECT_FALSE(write_file(path("in_the_way"), std::string("x")));
   EXPECT_EQ(files(), 1);
   EXPECT_FALSE(write_file(path("no/such/folder"), std::string("x")));
+}
+
+TEST_F(WholeFile, a_device_is_written_into_and_not_replaced) {
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  const int reader = open(path("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  EXPECT_TRUE(write_file(path("pipe"), std::string("through")));
+  char got[16] = {};
+  EXPECT_EQ(read(reader, got, sizeof got), 7);
+  EXPECT_STREQ(got, "through");
+  close(reader);
+  EXPECT_TRUE(fs::is_fifo(path("pipe")));
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(WholeFile, a_symbolic_link_stays_and_the_file_behind_it_is_replaced) {
+  ASSERT_TRUE(write_file(path("file"), std::string("old")));
+  fs::create_symlink("file", path("link"));
+  ASSERT_TRUE(write_file(path("link"), std::string("new")));
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  const auto sut = read_file(path("file"), 100);
+  ASSERT_TRUE(sut);
+  EXPECT_EQ(std::string(sut->begin(), sut->end()), "new");
 }
 
 }  // namespace
