@@ -15,5 +15,5 @@ for file in $files; do
     *_avx512.cpp) extra="-mavx512f -mavx512bw -mavx512vl -mavx512vnni" ;;
   esac
   # shellcheck disable=SC2086
-  clang++-14 $flags $extra "-DGANNET_VERSION=\"0\"" "$file" || exit 255
+  clang++-14 $flags $extra "$file" || exit 255
 done
