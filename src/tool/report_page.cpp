@@ -69,7 +69,11 @@ void add_timing(HtmlReport& page, const ReportRun& run) {
        {run.stepped ? ""
                     : latency_plot(run, "servo_jitter", "Servo jitter: woken late", "µs", 1000),
         ""}});
-  if (!run.stepped) page.table(stages_table(run), "Stages of the daemon's loops.");
+  if (!run.stepped)
+    page.table(
+        stages_table(run),
+        "Stages of the daemon's loops. capture/take holds the wait for the next pair; the longest "
+        "vision/recognise is the first search, from nothing.");
 }
 
 Result<void> add_run(HtmlReport& page, const ReportRun& run) {

@@ -28,7 +28,8 @@ echo "(live: whatever the verdict, it decides nothing here)"
 
 echo
 echo "== 3. real: depth of planes in Middlebury's Motorcycle pair, found and known"
-# Its published calibration at a quarter of the full size, as the pair is packaged.
+# Scharstein et al., GCPR 2014. Its published calibration at a quarter of the full size, as the pair
+# is packaged.
 cp "$assets/motorcycle_left.png" "$out/stereo/left.png"
 cp "$assets/motorcycle_right.png" "$out/stereo/right.png"
 gzip -dc <"$assets/motorcycle_disp.npz" >"$out/stereo/disparity.npy"  # a zip of one file
@@ -45,9 +46,9 @@ name,x,y,width,height
 side cover,285,249,59,45
 engine cover,338,304,56,52
 fuel tank,398,184,58,36
-chest on the floor,623,201,57,73
+carton below the shelf,623,201,57,73
 carton on the shelf,530,36,72,58
-plywood wall,219,19,79,81
+white door,219,19,79,81
 END
 sed 1d "$out/stereo/rectangles.csv" | while IFS=, read -r name x y width height; do
   "$bin/gannet" locate --rig "$out/stereo/rig.toml" --left "$out/stereo/left.png" \
