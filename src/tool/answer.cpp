@@ -11,9 +11,10 @@ namespace {
 using control::Json;
 using Eigen::Vector3d;
 
+// A negative zero is printed as zero.
 Json list(const Eigen::Ref<const Eigen::VectorXd>& v) {
   Json array = Json::array();
-  for (Eigen::Index i = 0; i < v.size(); ++i) array.push_back(v[i]);
+  for (Eigen::Index i = 0; i < v.size(); ++i) array.push_back(v[i] == 0 ? 0.0 : v[i]);
   return array;
 }
 
@@ -38,7 +39,7 @@ Json json_of(const Answer& answer) {
   if (r.found) {
     const Eigen::Quaterniond q = canonical(r.left_from_target.rotation);
     json["position_m"] = list(r.left_from_target.translation);
-    json["quaternion"] = {q.w(), q.x(), q.y(), q.z()};
+    json["quaternion"] = list(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()));
     json["sigma_m"] = list(sigma(r.covariance, 0));
     json["sigma_rad"] = list(sigma(r.covariance, 3));
   }

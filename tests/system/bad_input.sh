@@ -151,6 +151,10 @@ for case in "--model no.gannet" "--roi 150,10,40,40" "--model crab.gannet --opti
     fail "locate: JSON for $case" "$(cat out.txt)"
 done
 
+"${locate[@]}" --roi 60,40,20,20 --evaluations 10 --json 2>err.txt >/dev/full
+[ $? -eq 2 ] && grep -q 'standard output' err.txt && passed=$((passed + 1)) ||
+  fail 'locate: an answer that cannot be written' "$(cat err.txt)"
+
 # ---- track and map
 mkdir -p frames/left frames/right
 cp target.png frames/left/1.png

@@ -24,7 +24,7 @@ Answer found_answer() {
 
 TEST(Answer, json_has_the_contract_s_fields_in_their_units) {
   EXPECT_EQ(json_of(found_answer()).dump(),
-            R"({"found":true,"position_m":[0.1,-0.2,0.5],"quaternion":[0.8,-0.0,-0.0,-0.6],)"
+            R"({"found":true,"position_m":[0.1,-0.2,0.5],"quaternion":[0.8,0.0,0.0,-0.6],)"
             R"("sigma_m":[0.001,0.002,0.003],"sigma_rad":[0.01,0.02,0.03],"fitness":0.75,)"
             R"("size_m":[0.175,0.14],"evaluations":20000.0,"time_ms":12.5,"model":"crab"})");
 }
@@ -40,6 +40,14 @@ TEST(Answer, pose_fields_are_null_when_nothing_was_found) {
   EXPECT_EQ(json.at("size_m").size(), 2u);
   answer.model.reset();
   EXPECT_TRUE(json_of(answer).at("size_m").is_null()) << "a rectangle's size follows from its pose";
+}
+
+TEST(Answer, a_negative_zero_is_printed_as_zero) {
+  Answer answer = found_answer();
+  answer.recognition.left_from_target.rotation = Eigen::Quaterniond(0.8, -0.0, 0.6, -0.0);
+  answer.recognition.left_from_target.translation = {-0.0, -0.0, 0.5};
+  const std::string sut = json_of(answer).dump();
+  EXPECT_EQ(sut.find("-0.0"), std::string::npos) << sut;
 }
 
 TEST(Answer, text_is_in_millimetres_and_degrees) {
