@@ -46,7 +46,9 @@ void VisionLoop::look_at(TakenFrame&& taken, TimePoint now) {
   auto& timer = report_.loop.timer;
   last_pair_ = now;
   any_pair_ = true;
-  const PoseEstimate estimate = recognise(taken.frame);
+  const TimePoint begun = monotonic_now();
+  PoseEstimate estimate = recognise(taken.frame);
+  estimate.time_spent = monotonic_now() - begun;
   timer.lap(kRecognise, monotonic_now());
   publish(estimate, taken.taken, now);
   const TimePoint published = monotonic_now();

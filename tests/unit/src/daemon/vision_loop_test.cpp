@@ -102,6 +102,13 @@ TEST_F(VisionLoopTest, hands_the_same_lease_on_to_the_archive_or_home) {
   EXPECT_EQ(camera_.at_home(), 7);
 }
 
+TEST_F(VisionLoopTest, an_estimate_tells_what_time_it_took) {
+  VisionLoop sut = make(false);
+  give_frames(1);
+  sut.step(kNow);
+  EXPECT_GT(report_.read().estimate.time_spent.count(), 0);
+}
+
 TEST_F(VisionLoopTest, counts_estimates_that_servo_does_not_take) {
   VisionLoop sut = make(false);
   for (int i = 0; i < 6; ++i) {
