@@ -35,6 +35,22 @@ void CorrelationFitness::score(const TargetPoints& target, const PreparedFrame& 
   }
 }
 
+float CorrelationFitness::weaker_eye(const TargetPoints& target, const PreparedFrame& frame,
+                                     const Hypothesis& q, Scratch& scratch) const {
+  const PointSet& set = target.level[0];
+  const EyePlanes& eye = frame.right();
+  const PackedPlane& plane = eye.packed[0];
+  if (target.unscaled) {
+    const PlaneView view = right_.ray_view(q, 0, plane.width, plane.height, plane.guard);
+    return static_cast<float>(eye_score(set, right_, eye, 0, view, scratch));
+  }
+  const double left = eye_score(set, left_, frame.left(), 0,
+                                left_.view(q, 0, plane.width, plane.height, plane.guard), scratch);
+  const double right = eye_score(
+      set, right_, eye, 0, right_.view(q, 0, plane.width, plane.height, plane.guard), scratch);
+  return static_cast<float>(std::min(left, right));
+}
+
 namespace {
 
 CorrelationSums operator+(const CorrelationSums& a, const CorrelationSums& b) {

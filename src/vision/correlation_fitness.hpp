@@ -34,6 +34,8 @@ class CorrelationFitness final : public Fitness {
   void score(const TargetPoints& target, const PreparedFrame& frame, int level,
              std::span<const Hypothesis> hypotheses, std::span<float> scores,
              Scratch& scratch) const override;
+  float weaker_eye(const TargetPoints& target, const PreparedFrame& frame,
+                   const Hypothesis& hypothesis, Scratch& scratch) const override;
 
  private:
   double mean_correlation(const CorrelationSums& sums, int n, const PointSet& set,

@@ -45,6 +45,10 @@ class Fitness {
   virtual void score(const TargetPoints& target, const PreparedFrame& frame, int level,
                      std::span<const Hypothesis> hypotheses, std::span<float> scores,
                      Scratch& scratch) const = 0;
+  // What the eye that agrees less gives to the score of one hypothesis, at level 0; for a rectangle
+  // of the left image the score itself.
+  virtual float weaker_eye(const TargetPoints& target, const PreparedFrame& frame,
+                           const Hypothesis& hypothesis, Scratch& scratch) const = 0;
 };
 
 }  // namespace gannet::vision

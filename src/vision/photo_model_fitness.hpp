@@ -20,8 +20,13 @@ class PhotoModelFitness final : public Fitness {
   void score(const TargetPoints& target, const PreparedFrame& frame, int level,
              std::span<const Hypothesis> hypotheses, std::span<float> scores,
              Scratch& scratch) const override;
+  float weaker_eye(const TargetPoints& target, const PreparedFrame& frame,
+                   const Hypothesis& hypothesis, Scratch& scratch) const override;
 
  private:
+  double eye_votes(const TargetPoints& target, const PointSet& set, const CameraModel& camera,
+                   const EyePlanes& eye, const Hypothesis& hypothesis, Scratch& scratch) const;
+
   CameraModel left_;
   CameraModel right_;
   const Kernels& kernels_;

@@ -37,4 +37,12 @@ void ProjectionFitness::score(const TargetPoints& target, const PreparedFrame& f
   }
 }
 
+// The left image is where the rectangle came from: the right eye alone says how well it fits.
+float ProjectionFitness::weaker_eye(const TargetPoints& target, const PreparedFrame& frame,
+                                    const Hypothesis& hypothesis, Scratch& scratch) const {
+  float result = 0;
+  score(target, frame, 0, {&hypothesis, 1}, {&result, 1}, scratch);
+  return result;
+}
+
 }  // namespace gannet::vision

@@ -20,6 +20,8 @@ class ProjectionFitness final : public Fitness {
   void score(const TargetPoints& target, const PreparedFrame& frame, int level,
              std::span<const Hypothesis> hypotheses, std::span<float> scores,
              Scratch& scratch) const override;
+  float weaker_eye(const TargetPoints& target, const PreparedFrame& frame,
+                   const Hypothesis& hypothesis, Scratch& scratch) const override;
 
  private:
   CameraModel right_;
