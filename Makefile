@@ -21,8 +21,8 @@ CXXFLAGS_COMMON := -std=c++20 -g -ffp-contract=off -fno-math-errno -fPIE -I. -is
             -DGANNET_VERSION='"$(VERSION)"' $(WARNINGS) -MMD -MP
 CXXFLAGS_release := -O2 -fno-omit-frame-pointer
 CXXFLAGS_debug   := -O0 -D_GLIBCXX_ASSERTIONS
-CXXFLAGS_asan    := -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all
-CXXFLAGS_tsan    := -O1 -fno-omit-frame-pointer -fsanitize=thread
+CXXFLAGS_asan    := -O1 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all
+CXXFLAGS_tsan    := -O1 -g1 -fno-omit-frame-pointer -fsanitize=thread
 LDFLAGS_asan     := -fsanitize=address,undefined
 LDFLAGS_tsan     := -fsanitize=thread
 CXXFLAGS_ALL = $(CXXFLAGS_COMMON) $(CXXFLAGS_$(PROFILE)) $(CXXFLAGS)
@@ -209,7 +209,7 @@ install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1 $(DESTDIR)$(PREFIX)/share/man/man5 \
 	  $(DESTDIR)$(PREFIX)/share/man/man8 $(DESTDIR)$(PREFIX)/share/gannet/scenarios \
 	  $(DESTDIR)$(PREFIX)/share/gannet/boards $(DESTDIR)$(PREFIX)/share/doc/gannet/examples
-	install $(foreach p,$(PROGRAMS),$B/bin/$p) $(DESTDIR)$(PREFIX)/bin
+	install -s $(foreach p,$(PROGRAMS),$B/bin/$p) $(DESTDIR)$(PREFIX)/bin
 	for n in 1 5 8; do for f in docs/man/*.$$n; do [ ! -e $$f ] || \
 	  install -m 644 $$f $(DESTDIR)$(PREFIX)/share/man/man$$n; done; done
 	install -m 644 tests/scenarios/*.toml $(DESTDIR)$(PREFIX)/share/gannet/scenarios

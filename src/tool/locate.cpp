@@ -67,6 +67,10 @@ void tell_bad_arguments(std::span<const std::string> args, const std::string& te
 
 int run(const Arguments& arguments) {
   const bool json = arguments.flag("json");
+  if (const std::string path = arguments.text("overlay");
+      arguments.given("overlay") && !path.ends_with(".png")) {
+    return refuse(json, "--overlay: '" + path + "' does not end in .png");
+  }
   auto locator = Locator::create(arguments);
   if (!locator) return refuse(json, locator.error().text);
   const Answer answer = locator->locate();

@@ -111,8 +111,9 @@ Result<vision::PhotoPatch> build(const Arguments& arguments) {
                                 .background = photos->background ? &background : nullptr,
                                 .mask = photos->mask ? &mask : nullptr,
                                 .distance_m = arguments.number("distance-mm") / 1000,
-                                .name = arguments.text("name")},
+                                .name = arguments.text("target")},  // what an error is about
                                rig->left);
+  if (patch) patch->name = arguments.text("name");
   return patch;
 }
 
