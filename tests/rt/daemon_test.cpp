@@ -71,7 +71,7 @@ TEST(RtDaemon, the_capture_loop) {
   auto sut = std::make_unique<CaptureLoop>(
       CaptureLoop::Links{camera.get(), &line, report.get(), &events, &facts}, Duration{});
   prove([&](int i) {
-    sut->step(time_from_ns(i * 33'000'000), {});
+    sut->step(time_from_ns(std::int64_t{i} * 33'000'000), {});
     TakenFrame taken;
     if (i % 3 != 0) line.pop(taken);  // vision is sometimes late
     camera->says = i % 50 == 0 ? hal::CaptureStatus::kLost : hal::CaptureStatus::kFrame;
