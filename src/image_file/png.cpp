@@ -180,8 +180,8 @@ void write_all(Session& session) {
   png_set_IHDR(w.png, w.info, static_cast<png_uint_32>(w.width), static_cast<png_uint_32>(w.height),
                w.bits, w.colour_type, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
-  // Recorded frames are the most of what is written, and have a frame's time: a third of the time of
-  // zlib's default level, for files a tenth larger.
+  // Recorded frames are the most of what is written, and have a frame's time: a third of the time
+  // of zlib's default level, for files a tenth larger.
   png_set_compression_level(w.png, 1);
   png_set_filter(w.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
   png_write_info(w.png, w.info);
