@@ -5,6 +5,13 @@
 
 namespace gannet::test {
 
+// A sanitizer's shadow memory faults pages in whenever it likes.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kCountsPageFaults = false;
+#else
+inline constexpr bool kCountsPageFaults = true;
+#endif
+
 struct RtUsage {
   long page_faults = 0;
   long voluntary_switches = 0;
