@@ -275,7 +275,9 @@ Recognition Recogniser::finish(const vision::PreparedFrame& frame, const vision:
     // Nearest-pixel scores are rough by about this much.
     constexpr double kRough = 0.01;
     out.covariance = refined.covariance;
-    if (static_cast<double>(score) >= out.fitness - kRough) {
+    // The refinement knows no box; an answer outside of what was asked for is none.
+    if (static_cast<double>(score) >= out.fitness - kRough &&
+        space_.contains(refined.left_from_target)) {
       out.left_from_target = refined.left_from_target;
       out.fitness = static_cast<double>(score);
     }

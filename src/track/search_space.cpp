@@ -108,15 +108,31 @@ vision::Hypothesis SearchSpace::decode(std::span<const float> genes) const {
   return q;
 }
 
+// θx, θy, θz of R = Rz·Ry·Rx; with three genes the two tilts of the plane's normal.
+Eigen::Vector3d SearchSpace::angles_of(const Eigen::Quaterniond& rotation) const {
+  if (!three_) return rpy_from_quaternion(rotation);
+  const Eigen::Vector3d n = rotation * Eigen::Vector3d::UnitZ();
+  return {std::asin(std::clamp(-n.y(), -1.0, 1.0)), std::atan2(n.x(), n.z()), 0};
+}
+
+bool SearchSpace::contains(const Transform<LeftCamera, Target>& pose) const {
+  constexpr double kRounding = 1e-6;  // metres and radians
+  const Eigen::Vector3d t = pose.translation;
+  const Eigen::Vector3d angles = angles_of(pose.rotation).cwiseAbs();
+  if (t.z() < 1 / near_ - kRounding || t.z() > 1 / far_ + kRounding) return false;
+  if (angles.head<2>().maxCoeff() > tilt_ + kRounding) return false;
+  if (three_) return true;
+  return angles.z() <= roll_ + kRounding && t.x() >= x_.low(t.z()) - kRounding &&
+         t.x() <= x_.high(t.z()) + kRounding && t.y() >= y_.low(t.z()) - kRounding &&
+         t.y() <= y_.high(t.z()) + kRounding;
+}
+
 void SearchSpace::encode(const Transform<LeftCamera, Target>& pose, std::span<float> genes) const {
   const Eigen::Vector3d t = pose.translation;
   const double z = std::clamp(t.z(), 1 / near_, 1 / far_);
-  Eigen::Vector3d angles = rpy_from_quaternion(pose.rotation);
+  const Eigen::Vector3d angles = angles_of(pose.rotation);
   const std::size_t depth = three_ ? 0 : 2;
-  if (three_) {
-    const Eigen::Vector3d n = pose.rotation * Eigen::Vector3d::UnitZ();
-    angles = {std::asin(std::clamp(-n.y(), -1.0, 1.0)), std::atan2(n.x(), n.z()), 0};
-  } else {
+  if (!three_) {
     genes[0] = gene_of(t.x(), x_.low(z), x_.high(z));
     genes[1] = gene_of(t.y(), y_.low(z), y_.high(z));
     genes[5] = gene_of(angles.z(), -roll_, roll_);

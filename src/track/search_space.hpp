@@ -26,10 +26,13 @@ class SearchSpace {
 
   int dimension() const { return three_ ? 3 : 6; }
   vision::Hypothesis decode(std::span<const float> genes) const;
+  // Whether a pose lies inside the box, up to rounding.
+  bool contains(const Transform<LeftCamera, Target>& pose) const;
   // The genes of a pose; coordinates outside the box are put on its border.
   void encode(const Transform<LeftCamera, Target>& pose, std::span<float> genes) const;
 
  private:
+  Eigen::Vector3d angles_of(const Eigen::Quaterniond& rotation) const;
   struct Range {  // linear in depth: low and high = offset + slope · z
     double low_offset = 0, low_slope = 0, high_offset = 0, high_slope = 0;
     double low(double z) const { return low_offset + low_slope * z; }

@@ -134,6 +134,21 @@ TEST_F(InAScene, the_papers_votes_find_it_too_given_a_good_optimiser) {
   }
 }
 
+TEST_F(InAScene, answers_within_the_volume_that_was_asked_for) {
+  const auto truth = pose_at(0.05, -0.01, 0.6, 20, -18, 25);
+  TrackConfig config;
+  config.evaluations = 3000;
+  config.tilt_deg = 8;
+  config.roll_deg = 10;
+  config.z_max_m = 0.57;
+  const Recognition got = find(config, &truth, serial);
+  const Eigen::Vector3d angles = rpy_from_quaternion(got.left_from_target.rotation) * 57.29578;
+  EXPECT_LE(std::abs(angles.x()), 8.001);
+  EXPECT_LE(std::abs(angles.y()), 8.001);
+  EXPECT_LE(std::abs(angles.z()), 10.001);
+  EXPECT_LE(got.left_from_target.translation.z(), 0.57001);
+}
+
 TEST_F(InAScene, stops_when_it_is_told) {
   const auto truth = pose_at(0.05, -0.01, 0.55);
   TrackConfig config;
