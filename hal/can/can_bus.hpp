@@ -1,5 +1,5 @@
-// CanBus: sends and receives frames without ever blocking. Kinds: memory, local (AF_UNIX);
-// SocketCAN beside them. Created at start-up by make_can_bus (can_kinds.hpp); used by the servo
+// CanBus: sends and receives frames without ever blocking. Kinds: memory, local (AF_UNIX),
+// socketcan. Created at start-up by make_can_bus (can_kinds.hpp); used by the servo
 // thread alone.
 #pragma once
 
@@ -24,6 +24,15 @@ struct CanCounters {
   std::uint64_t send_refused = 0;     // no room, or the bus is down
   std::uint64_t receive_dropped = 0;  // lost before we read them
   std::uint64_t malformed = 0;
+  // Of buses with a controller that tells:
+  std::uint64_t error_frames = 0;
+  std::uint64_t no_ack = 0;          // sent, and nobody on the bus confirmed it
+  std::uint64_t bus_off = 0;         // the controller went off the bus
+  std::uint64_t restarts = 0;        // and came back
+  std::uint64_t links_lost = 0;      // the interface went down or away
+  std::uint64_t clock_steps = 0;     // frames whose stamp a step of the wall clock had spoiled
+  std::uint8_t transmit_errors = 0;  // the controller's own counters, when it last told
+  std::uint8_t receive_errors = 0;
 };
 
 class CanBus {

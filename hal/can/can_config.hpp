@@ -10,6 +10,7 @@ namespace gannet::hal {
 struct CanConfig {
   std::string kind = "local";
   std::string path = "/run/gannet/can0";
+  std::string interface = "can0";
 };
 
 void describe(Visitor& v, CanConfig& c);

@@ -2,6 +2,7 @@
 
 #include "hal/can/local_bus.hpp"
 #include "hal/can/memory_bus.hpp"
+#include "hal/can/socketcan_bus.hpp"
 
 namespace gannet::hal {
 namespace {
@@ -18,6 +19,12 @@ Made make_memory(const CanConfig&, const std::vector<CanFilter>&, TimePoint) {
   return make_lonely_bus();
 }
 
+Made make_socketcan(const CanConfig& config, const std::vector<CanFilter>& wanted, TimePoint now) {
+  auto bus = SocketCanBus::open(config.interface, wanted, now);
+  if (!bus) return bus.error();
+  return Made(std::move(*bus));
+}
+
 struct Kind {
   const char* name;
   Made (*make)(const CanConfig&, const std::vector<CanFilter>&, TimePoint);
@@ -25,6 +32,7 @@ struct Kind {
 constexpr Kind kKinds[] = {
     {"local", make_local},
     {"memory", make_memory},
+    {"socketcan", make_socketcan},
 };
 
 }  // namespace

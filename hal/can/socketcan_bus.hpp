@@ -1,0 +1,108 @@
+// SocketCanBus: a CAN interface of Linux (can0, vcan0) through a raw socket, kind "socketcan".
+// Data frames of exactly the wanted ids are handed out; the controller's error frames become
+// state() and counters() and are not. Own frames do not come back; other programs on this machine
+// see them (candump).
+//
+// Times are the kernel's stamps at arrival, on CLOCK_REALTIME, turned into monotonic ones by an
+// offset that is read with each batch. A stamp in the future, or from before the socket was last
+// seen empty, was spoiled by a step of the wall clock: then it is the time of receipt, counted.
+//
+// An interface that goes down is kDown until it is up again; one that is taken away is looked for
+// by name, after 10 ms and then ever later up to 0.5 s, and opened anew. Nothing ever waits for the
+// bus. Opening anew asks for the kernel's network lock, which `ip link` may hold for moments;
+// nothing is allowed to move then. Frames offered while the bus is off or down are refused, so that
+// no old setpoint waits in a queue for its return.
+//
+// CAN FD would be a kind beside this one: its frames have another size and flags.
+// Created at start-up; then one thread, RT safe.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal/can/bus_health.hpp"
+#include "hal/can/can_bus.hpp"
+#include "hal/can/can_calls.hpp"
+#include "hal/can/can_wire.hpp"
+#include "platform/base/result.hpp"
+
+namespace gannet::hal {
+
+class SocketCanBus final : public CanBus {
+ public:
+  // wanted: empty means all. An interface that is down is accepted: the bus begins as kDown.
+  // Error: no such interface, none of CAN, a kernel without CAN, too many filters; what to do.
+  static Result<std::unique_ptr<SocketCanBus>> open(const std::string& interface,
+                                                    const std::vector<CanFilter>& wanted,
+                                                    TimePoint now,
+                                                    CanCalls& calls = linux_can_calls());
+  ~SocketCanBus() override;
+  SocketCanBus(const SocketCanBus&) = delete;
+  SocketCanBus& operator=(const SocketCanBus&) = delete;
+
+  int send(std::span<const CanFrame> frames, TimePoint now) override;
+  int receive(std::span<ReceivedCanFrame> frames, TimePoint now) override;
+  BusState state() const override { return link_ == Link::kUp ? health_.state() : BusState::kDown; }
+  CanCounters counters() const override { return counters_; }
+  int fd() const { return fd_; }  // for a wait (poll); another one after the interface was away
+
+ private:
+  static constexpr int kBatch = 32;
+  static constexpr std::size_t kControlBytes = 128;
+  enum class Link : std::uint8_t { kUp, kDown, kGone };
+  enum class Step : std::uint8_t { kDone, kSocket, kInterface, kOptions, kBind };
+  struct Filter {  // as the kernel has it
+    std::uint32_t id, mask;
+  };
+  struct Failure {
+    Step step = Step::kDone;
+    int error = 0;
+  };
+  struct Clocks {
+    TimePoint monotonic;
+    Duration realtime_offset;
+  };
+
+  SocketCanBus(const std::string& interface, const std::vector<CanFilter>& wanted, CanCalls& calls);
+  Failure open_socket();
+  int set_options(int fd);
+  Error explain(const Failure& failure) const;
+  void read_link();
+  bool is_up(TimePoint now);
+  void check_carrier(TimePoint now);
+  void note_error(int error, TimePoint now);
+  void look_later(Duration after, TimePoint now) { next_look_ = now + after; }
+  int send_some(std::span<const CanFrame> frames, TimePoint now);
+  std::size_t receive_batch(std::size_t count, TimePoint now);
+  std::size_t hand_out(std::size_t n, std::span<ReceivedCanFrame> frames, TimePoint now);
+  TimePoint read_control(msghdr& message, const Clocks& clocks, TimePoint now);
+  TimePoint time_of(Duration stamp, const Clocks& clocks, TimePoint now);
+  TimePoint monotonic() { return time_from_ns(calls_.clock_ns(CLOCK_MONOTONIC)); }
+
+  const std::string interface_;
+  CanCalls& calls_;
+  std::vector<Filter> filters_;
+  int fd_ = -1;
+  int index_ = 0;
+  Link link_ = Link::kGone;
+  bool has_carrier_ = true;
+  Duration backoff_ = {};
+  TimePoint next_look_ = {};
+  TimePoint emptied_ = {};  // when the socket was last known to hold no frame
+  std::uint32_t socket_drops_ = 0;
+  BusHealth health_;
+  CanCounters counters_;
+
+  std::array<mmsghdr, kBatch> messages_ = {};
+  std::array<iovec, kBatch> parts_ = {};
+  std::array<CanWire, kBatch> wires_ = {};
+  struct alignas(cmsghdr) Control {
+    std::array<char, kControlBytes> bytes;
+  };
+  std::array<Control, kBatch> controls_ = {};
+};
+
+}  // namespace gannet::hal
