@@ -87,6 +87,9 @@ SocketCanBus::Failure SocketCanBus::open_socket() {
   index_ = index;
   socket_drops_ = 0;
   read_link();
+  // Binding to an interface that is down leaves an error in the socket, which would else be taken
+  // for another loss once it is up.
+  if (link_ == Link::kDown) calls_.receive_batch(fd_, messages_.data(), 1);
   return {};
 }
 

@@ -22,5 +22,11 @@ TEST(CanKinds, ALocalBusWithoutAPathIsRefused) {
   EXPECT_FALSE(make_can_bus({.kind = "local", .path = ""}, {}, {}));
 }
 
+TEST(CanKinds, ASocketCanInterfaceIsOpenedByItsName) {
+  const auto bus = make_can_bus({.kind = "socketcan", .interface = "gannet_none"}, {}, {});
+  ASSERT_FALSE(bus);
+  EXPECT_NE(bus.error().text.find("gannet_none"), std::string::npos) << bus.error().text;
+}
+
 }  // namespace
 }  // namespace gannet::hal
