@@ -1,0 +1,49 @@
+# The guest as files and processes: what must be there before a scenario, and one run of it.
+# Sourced by run.
+
+uuid=11111111-2222-3333-4444-555555555555  # not random: a repeat must give the same bits
+
+boot() {  # ROOT.ext4 on|off (changes stay) DISK.ext4 SEED CONSOLE LIMIT_S
+  local time=(-accel "tcg,thread=single" -icount "shift=0,sleep=off" -cpu max) serial=(-serial "file:$5")
+  [ -z "${KVM:-}" ] || time=(-accel kvm -cpu host)
+  [ -z "$shell" ] || serial=(-serial stdio)
+  timeout --foreground "$6" qemu-system-x86_64 "${time[@]}" -seed "$4" -rtc base=2035-01-01,clock=vm \
+    -machine pc,nvdimm=on -smp 1 -m 768M,slots=4,maxmem=4G -nodefaults -no-user-config \
+    -display none -no-reboot -kernel "$cache/vmlinux" -initrd "$cache/initrd" "${serial[@]}" \
+    -append "console=ttyS0 root=/dev/pmem0 quiet panic=-1 mitigations=off net.ifnames=0 \
+tsc=reliable nokaslr systemd.show_status=0 ${APPEND:-}" \
+    -object "memory-backend-file,id=m0,share=$2,mem-path=$1,size=700M" \
+    -device nvdimm,id=nv0,memdev=m0,unarmed=off \
+    -object "memory-backend-file,id=m1,share=on,mem-path=$3,size=96M" -device nvdimm,id=nv1,memdev=m1
+}
+
+disk() {  # FOLDER IMAGE
+  rm -f "$2"
+  mke2fs -q -F -t ext4 -O '^metadata_csum,^64bit,^has_journal' -m 0 -U $uuid -E "hash_seed=$uuid" \
+    -d "$1" "$2" 96M
+}
+
+prepare() {
+  "$here/guest/build.sh" "$cache"
+}
+
+run_scenario() {  # NAME SEED RESULTS
+  local name=$1 seed=$2 results=$3 files
+  rm -rf "$results"
+  mkdir -p "$results"
+  files=$results/files
+  mkdir -p "$files/out"
+  cp "$here"/guest/start "$here"/guest/lib.sh "$files"
+  cp "$here/scenarios/$name.sh" "$files/scenario.sh"
+  [ ! -e "$here/scenarios/$name.toml" ] || cp "$here/scenarios/$name.toml" "$files/scenario.toml"
+  { echo "SEED=$seed"; echo "SHELL_WANTED=$shell"; } >>"$files/lib.sh"
+  find "$files" -exec touch -h -d '2035-01-01 UTC' {} +
+  disk "$files" "$results/disk.ext4"
+  rm -r "$files"
+  boot "$cache/base.ext4" off "$results/disk.ext4" "$seed" "$results/console" "${HOST_LIMIT_S:-300}" || return 1
+  debugfs -R "rdump /out $results" "$results/disk.ext4" 2>/dev/null
+  mv "$results"/out/* "$results"
+  rmdir "$results/out"
+  [ -n "$keep" ] || rm "$results/disk.ext4"
+  [ -e "$results/rc" ]
+}
