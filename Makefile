@@ -67,12 +67,16 @@ PROGRAM_gannet       := src/tool
 PROGRAM_gannet-world := src/world
 PROGRAMS := $(foreach p,gannetd gannet gannet-world,$(if $(wildcard $(PROGRAM_$p)/main.cpp),$p))
 LIBS := -lpng -lturbojpeg
+# hal/gpio has a file for each version of libgpiod; the one that is installed decides.
+LIBS_GPIO := -lgpiod
+GPIOD := $(shell $(or $(PKG_CONFIG),pkg-config) --modversion libgpiod 2>/dev/null)
+OTHER_GPIOD := %/gpiod_calls_v$(if $(filter 2.%,$(GPIOD)),1,2).cpp
 
 # ---- sources -> objects -> libraries ------------------------------------------------------------
 # Kernel variants: <name>_avx2.cpp, _avx512.cpp and _neon.cpp get their instruction set; only they.
 # They include neither Eigen nor inline library code, so that no other room is built with it.
 not_here := $(if $(filter x86_64,$(ARCH)),%_neon.cpp,%_avx2.cpp %_avx512.cpp)
-sources   = $(filter-out $(not_here) %/main.cpp,$(wildcard $1/*.cpp $1/*/*.cpp))
+sources   = $(filter-out $(not_here) $(OTHER_GPIOD) %/main.cpp,$(wildcard $1/*.cpp $1/*/*.cpp))
 objects   = $(patsubst %.cpp,$B/obj/%.o,$(call sources,$1))
 library   = $B/lib/$(subst /,_,$1).a
 libraries = $(foreach r,$1,$(if $(wildcard $r/*.cpp $r/*/*.cpp),$(call library,$r)))
@@ -114,7 +118,7 @@ link = mkdir -p $(@D); echo "  LD   $@"; \
 
 define program_rule
 $B/bin/$1: $B/obj/$(PROGRAM_$1)/main.o $(call libraries,$(PROGRAM_$1) $(ALL_ROOMS))
-	@$$(link) $(LIBS)
+	@$$(link) $(LIBS) $(LIBS_GPIO)
 endef
 $(foreach p,$(PROGRAMS),$(eval $(call program_rule,$p)))
 
@@ -127,7 +131,8 @@ BIG_TESTS  := $(foreach t,golden stress rt system,$(if $(wildcard tests/$t/*.cpp
 uses_src/daemon := $(ALL_ROOMS)
 uses_src/tool   := $(ALL_ROOMS)
 uses_src/world  := $(ALL_ROOMS)
-libs_of = $(if $(filter src/image_file src/report src/modeldb src/config src/daemon src/tool src/world,$1),$(LIBS))
+libs_of = $(if $(filter src/image_file src/report src/modeldb src/config src/daemon src/tool src/world,$1),$(LIBS)) \
+          $(if $(filter hal/gpio src/config src/modeldb src/daemon src/tool src/world,$1),$(LIBS_GPIO))
 
 define unit_rule
 $B/tests/unit/$1/run: $(patsubst %.cpp,$B/obj/%.o,$(wildcard tests/unit/$1/*.cpp)) $(call libraries,$1 $(uses_$1))
@@ -136,7 +141,7 @@ endef
 $(foreach r,$(UNIT_ROOMS),$(eval $(call unit_rule,$r)))
 define big_rule
 $B/tests/$1/run: $(patsubst %.cpp,$B/obj/%.o,$(wildcard tests/$1/*.cpp)) $(call libraries,src/daemon src/tool src/world $(ALL_ROOMS))
-	@$$(link) $(LIBS) -lgtest_main -lgtest
+	@$$(link) $(LIBS) $(LIBS_GPIO) -lgtest_main -lgtest
 endef
 $(foreach t,$(BIG_TESTS),$(eval $(call big_rule,$t)))
 TEST_BINARIES := $(foreach r,$(UNIT_ROOMS),$B/tests/unit/$r/run) $(foreach t,$(BIG_TESTS),$B/tests/$t/run)
@@ -150,7 +155,7 @@ unit/%: $B/tests/unit/%/run
 # ---- doors --------------------------------------------------------------------------------------
 # A door first installs what is missing, then builds and runs in a make of its own: on a bare
 # machine there is no compiler yet that this one could have asked.
-PACKAGES_BUILD := g++ libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev libpng-dev libturbojpeg0-dev
+PACKAGES_BUILD := g++ libeigen3-dev libtomlplusplus-dev nlohmann-json3-dev libpng-dev libturbojpeg0-dev libgpiod-dev pkg-config
 PACKAGES_TEST  := libgtest-dev googletest
 PACKAGES_RUN   := ca-certificates
 PACKAGES_STYLE := clang-format-14 clang-14
@@ -193,7 +198,7 @@ CLANG_FLAGS = -fsyntax-only $(filter-out -MMD -MP,$(CXXFLAGS_COMMON)) -O1
 clang:
 	@$(call need,$(PACKAGES_BUILD) $(PACKAGES_TEST) $(PACKAGES_STYLE))
 	@git ls-files -co --exclude-standard 'platform/*.cpp' 'hal/*.cpp' 'src/*.cpp' 'tests/unit/*.cpp' \
-	   'tests/rt/*.cpp' 'tests/stress/*.cpp' 'tests/system/*.cpp' | grep -v _neon.cpp | \
+	   'tests/rt/*.cpp' 'tests/stress/*.cpp' 'tests/system/*.cpp' | grep -v -e _neon.cpp -e $(notdir $(OTHER_GPIOD)) | \
 	 xargs -P $(shell nproc) -n 4 tests/support/clang_check.sh $(CLANG_FLAGS)
 	@echo "clang: no warnings"
 

@@ -1,4 +1,4 @@
-// DigitalLine: one input or output level. Kinds: simulated; libgpiod beside it. Servo thread.
+// DigitalLine: one input or output level. Kinds: gpiod, simulated. Servo thread.
 // A line that cannot be read reports kUnknown, and whoever reads it chooses the safe meaning.
 // RT safe.
 #pragma once

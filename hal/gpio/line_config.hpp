@@ -9,8 +9,11 @@ namespace gannet::hal {
 
 struct LineConfig {
   std::string kind = "none";
-  std::string path = "/dev/shm/gannet-lines";
+  std::string path = "/dev/shm/gannet-lines";  // kind simulated
   std::string name = "";
+  std::string chip = "/dev/gpiochip0";  // kind gpiod
+  std::string line = "";
+  std::string bias = "as_is";
   bool active_low = false;
 };
 

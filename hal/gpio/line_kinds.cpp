@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "hal/gpio/gpiod_line.hpp"
 #include "hal/gpio/simulated_line.hpp"
 
 namespace gannet::hal {
@@ -44,16 +45,44 @@ class ActiveLowOutput final : public DigitalOutput {
   Output line_;
 };
 
+// Leaves the line inactive when the program lets go of it.
+class RestingOutput final : public DigitalOutput {
+ public:
+  explicit RestingOutput(Output line) : line_(std::move(line)) {}
+  ~RestingOutput() override { line_->write(false, newest_); }
+  bool write(bool high, TimePoint now) override {
+    newest_ = now;
+    return line_->write(high, now);
+  }
+
+ private:
+  Output line_;
+  TimePoint newest_ = {};
+};
+
+template <class Line, class Made>
+Result<Line> as_line(Result<Made> made) {
+  if (!made) return made.error();
+  return Line(std::move(*made));
+}
+
 struct Kind {
   const char* name;
-  Input (*input)(const LineConfig&);
-  Output (*output)(const LineConfig&);
+  std::string LineConfig::*place;  // both of these are needed
+  std::string LineConfig::*line;
+  Result<Input> (*input)(const LineConfig&);
+  Result<Output> (*output)(const LineConfig&);
 };
 constexpr Kind kKinds[] = {
-    {"simulated",
-     [](const LineConfig& c) -> Input { return std::make_unique<SimulatedInput>(c.path, c.name); },
-     [](const LineConfig& c) -> Output {
-       return std::make_unique<SimulatedOutput>(c.path, c.name);
+    {"gpiod", &LineConfig::chip, &LineConfig::line,
+     [](const LineConfig& c) { return as_line<Input>(GpiodInput::open(c)); },
+     [](const LineConfig& c) { return as_line<Output>(GpiodOutput::open(c, c.active_low)); }},
+    {"simulated", &LineConfig::path, &LineConfig::name,
+     [](const LineConfig& c) {
+       return Result<Input>(std::make_unique<SimulatedInput>(c.path, c.name));
+     },
+     [](const LineConfig& c) {
+       return Result<Output>(std::make_unique<SimulatedOutput>(c.path, c.name));
      }},
 };
 
@@ -62,8 +91,9 @@ Result<const Kind*> find(const LineConfig& config) {
   for (const Kind& kind : kKinds) {
     known += std::string(", ") + kind.name;
     if (config.kind != kind.name) continue;
-    if (config.path.empty() || config.name.empty()) {
-      return Error{"a line of kind '" + config.kind + "' needs a path and a name"};
+    if ((config.*kind.place).empty() || (config.*kind.line).empty()) {
+      return Error{"a line of kind '" + config.kind + "' needs " +
+                   (config.kind == "gpiod" ? "a chip and a line" : "a path and a name")};
     }
     return &kind;
   }
@@ -76,8 +106,8 @@ Result<Input> make_input(const LineConfig& config) {
   if (config.kind == "none") return Input(std::make_unique<AbsentInput>());
   const auto kind = find(config);
   if (!kind) return kind.error();
-  Input line = (*kind)->input(config);
-  if (config.active_low) line = std::make_unique<ActiveLowInput>(std::move(line));
+  auto line = (*kind)->input(config);
+  if (line && config.active_low) return Input(new ActiveLowInput(std::move(*line)));
   return line;
 }
 
@@ -85,9 +115,11 @@ Result<Output> make_output(const LineConfig& config) {
   if (config.kind == "none") return Output(std::make_unique<AbsentOutput>());
   const auto kind = find(config);
   if (!kind) return kind.error();
-  Output line = (*kind)->output(config);
+  auto made = (*kind)->output(config);
+  if (!made) return made.error();
+  Output line = std::move(*made);
   if (config.active_low) line = std::make_unique<ActiveLowOutput>(std::move(line));
-  return line;
+  return Output(new RestingOutput(std::move(line)));
 }
 
 }  // namespace gannet::hal

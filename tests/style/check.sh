@@ -127,9 +127,9 @@ for room in $rooms; do
 done
 
 # ---- foreign headers, each behind one file pair --------------------------------------------------
-one_pair() {  # one_pair NAME REGEX
+one_pair() {  # one_pair NAME REGEX; x_v1.cpp and x_v2.cpp are one, of which a build takes one
   local users
-  users=$(grep -lE "^[[:space:]]*#[[:space:]]*include[[:space:]]*<($2)" $house /dev/null | sed -E 's/\.(cpp|hpp)$//' | sort -u)
+  users=$(grep -lE "^[[:space:]]*#[[:space:]]*include[[:space:]]*<($2)" $house /dev/null | sed -E 's/(_v[0-9])?\.(cpp|hpp)$//' | sort -u)
   if [ "$(printf '%s' "$users" | grep -c .)" -gt 1 ]; then
     report "$1 behind one file pair" "$users"
   else

@@ -2,7 +2,7 @@
 # built with the tests too, for tests/system/bench_test.cpp runs it with --quick.
 BENCH := $B/tests/bench/run
 $(BENCH): $(patsubst %.cpp,$B/obj/%.o,$(wildcard tests/bench/*.cpp)) $(call libraries,src/world $(ALL_ROOMS))
-	@$(link) $(LIBS)
+	@$(link) $(LIBS) $(LIBS_GPIO)
 tests: $(BENCH)
 
 bench:

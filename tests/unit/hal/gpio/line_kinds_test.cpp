@@ -31,6 +31,24 @@ TEST(LineKinds, ActiveLowTurnsLevelsAndEdgesRound) {
   EXPECT_EQ(world.read(1), Level::kLow);
 }
 
+TEST(LineKinds, AnOutputIsLeftInactive) {
+  const test::TemporaryFolder folder;
+  auto world = std::move(SimulatedLines::create(folder / "lines", {"light", "relay"})).value();
+  LineConfig config = {.kind = "simulated", .path = folder / "lines", .name = "light"};
+  auto light = std::move(*make_output(config));
+  config.name = "relay";
+  config.active_low = true;
+  auto relay = std::move(*make_output(config));
+  light->write(true, at_ms(1));
+  relay->write(true, at_ms(1));
+  EXPECT_EQ(world.read(0), Level::kHigh);
+  EXPECT_EQ(world.read(1), Level::kLow);
+  light.reset();
+  relay.reset();
+  EXPECT_EQ(world.read(0), Level::kLow);
+  EXPECT_EQ(world.read(1), Level::kHigh);
+}
+
 TEST(LineKinds, ALineThatIsNotFittedIsInactive) {
   auto input = std::move(*make_input({}));
   EXPECT_EQ(input->read(at_ms(0)).level, Level::kLow);
@@ -41,9 +59,11 @@ TEST(LineKinds, ALineThatIsNotFittedIsInactive) {
 TEST(LineKinds, KindsThatAreWrongAreRefused) {
   const auto unknown = make_input({.kind = "semaphore", .path = "a", .name = "b"});
   ASSERT_FALSE(unknown);
-  EXPECT_NE(unknown.error().text.find("none, simulated"), std::string::npos);
+  EXPECT_NE(unknown.error().text.find("none, gpiod, simulated"), std::string::npos);
   EXPECT_FALSE(make_output({.kind = "simulated", .path = "", .name = "b"}));
   EXPECT_FALSE(make_output({.kind = "simulated", .path = "a", .name = ""}));
+  EXPECT_FALSE(make_input({.kind = "gpiod", .chip = "/dev/gpiochip0", .line = ""}));
+  EXPECT_FALSE(make_input({.kind = "gpiod", .chip = "", .line = "4"}));
 }
 
 }  // namespace
