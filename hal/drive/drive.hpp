@@ -15,7 +15,12 @@ namespace gannet::hal {
 struct DriveGroupHealth {
   bool all_alive = false;  // each drive was heard within its feedback time-out
   bool any_fault = false;
-  int first_bad = -1;  // motor index of the first one not alive or in fault; −1: none
+  bool all_ready = true;      // each drive is set up and could be enabled
+  bool guards_itself = true;  // each drive stops by itself when we fall silent, as far as the
+                              // config wants that
+  int first_bad = -1;  // motor index of the first one of which one of these is bad; −1: none
+  const char* trouble = "";        // with first_bad, where the kind knows words: static text
+  std::uint32_t trouble_code = 0;  // the protocol's number for it; 0: none
 };
 
 class DriveGroup {
@@ -37,6 +42,9 @@ class DriveGroup {
   virtual std::span<const DriveFeedback> feedback() const = 0;
   virtual DriveGroupHealth health(TimePoint now) const = 0;
   virtual std::uint64_t malformed() const = 0;
+
+  // A person's reset: drives that latch their faults are led out of them, while not enabled.
+  virtual void reset_faults(TimePoint) {}
 };
 
 }  // namespace gannet::hal

@@ -20,11 +20,16 @@ void describe(Visitor& v, MotorConfig& c) {
                    "wants; the motor's pole pairs where it reports the electrical one."});
   v.field("has_feedback", c.has_feedback,
           {.help = "False for an ESC that reports no status: then its node's heartbeat must do."});
+  v.field("full_speed_rad_s", c.full_speed_rad_s,
+          {.min = 0.1,
+           .max = 10000,
+           .unit = "rad/s",
+           .help = "For drives that are commanded a speed: that of the shaft at full command."});
 }
 
 void describe(Visitor& v, DriveConfig& c) {
   v.field("kind", c.kind,
-          {.choices = {"dronecan_esc"}, .help = "The protocol that the motors speak."});
+          {.choices = {"dronecan_esc", "cia402"}, .help = "The protocol that the motors speak."});
   v.field("own_node_id", c.own_node_id,
           {.min = 1, .max = 126, .help = "Our static node id; nobody else's on that bus."});
   v.field("range", c.range,
@@ -47,6 +52,7 @@ void describe(Visitor& v, DriveConfig& c) {
            .help = "A node without a heartbeat for longer is offline; DroneCAN says 3."});
   v.field("arming_status", c.arming_status,
           {.help = "Broadcasts whether the motors are enabled; some ESCs turn nothing without."});
+  v.group("cia402", c.cia402, "CiA 402 drives over CANopen (drive.kind = cia402).");
   v.list("motor", c.motors, "One table for each motor, in the order of the vehicle's thrusters.");
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "hal/drive/cia402_config.hpp"
 #include "platform/base/describe.hpp"
 
 namespace gannet::hal {
@@ -15,6 +16,7 @@ struct MotorConfig {
   double max_command = 1;
   int pole_pairs = 1;
   bool has_feedback = true;
+  double full_speed_rad_s = 300;
 };
 
 struct DriveConfig {
@@ -25,6 +27,7 @@ struct DriveConfig {
   double feedback_timeout_s = 0.5;
   double node_timeout_s = 3;
   bool arming_status = true;
+  Cia402Config cia402;
   std::vector<MotorConfig> motors;
 };
 

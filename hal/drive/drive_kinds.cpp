@@ -1,5 +1,6 @@
 #include "hal/drive/drive_kinds.hpp"
 
+#include "hal/drive/cia402_drive.hpp"
 #include "hal/drive/dronecan_esc_drive.hpp"
 
 namespace gannet::hal {
@@ -13,6 +14,12 @@ Made make_dronecan_esc(const DriveConfig& config) {
   return Made(std::move(*drive));
 }
 
+Made make_cia402(const DriveConfig& config) {
+  auto drive = Cia402Drive::create(config);
+  if (!drive) return drive.error();
+  return Made(std::move(*drive));
+}
+
 struct Kind {
   const char* name;
   Made (*make)(const DriveConfig&);
@@ -20,6 +27,7 @@ struct Kind {
 };
 constexpr Kind kKinds[] = {
     {"dronecan_esc", make_dronecan_esc, DroneCanEscDrive::wanted_frames},
+    {"cia402", make_cia402, Cia402Drive::wanted_frames},
 };
 
 }  // namespace

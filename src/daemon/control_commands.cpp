@@ -47,6 +47,10 @@ const char* advice(Cause cause) {
       return "a drive reports a fault";
     case Cause::kDrivesSilent:
       return "a drive is not heard: is it powered and on the bus?";
+    case Cause::kDrivesNotReady:
+      return "a drive is not set up: see gannet events";
+    case Cause::kDrivesUnguarded:
+      return "a drive would not stop by itself if the daemon died; see accept_unguarded";
     case Cause::kBusDown:
       return "the CAN bus is down";
     case Cause::kOverruns:
@@ -161,7 +165,11 @@ Json ControlCommands::drives_json() const {
   json["bus"] = to_string(servo.bus);
   json["all_alive"] = servo.drives.all_alive;
   json["any_fault"] = servo.drives.any_fault;
+  json["all_ready"] = servo.drives.all_ready;
+  json["guards_itself"] = servo.drives.guards_itself;
   json["first_bad"] = servo.drives.first_bad;
+  json["trouble"] = servo.drives.trouble;
+  json["trouble_code"] = servo.drives.trouble_code;
   json["reach_scale"] = servo.reach_scale;
   return json;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "platform/base/log.hpp"
 #include "src/telemetry/event_codes.hpp"
@@ -82,6 +83,11 @@ std::string word_of(std::string_view kind, int value) {
   if (kind == "reason") return gannet::to_string(static_cast<TrackReason>(value));
   if (kind == "bus" && value <= static_cast<int>(hal::BusState::kDown)) {
     return to_string(static_cast<hal::BusState>(value));
+  }
+  if (kind == "hex") {
+    char text[16];
+    std::snprintf(text, sizeof text, "0x%X", static_cast<unsigned>(value));
+    return text;
   }
   return "";
 }

@@ -173,6 +173,9 @@ void ServoLoop::supervise(TimePoint now, std::int64_t missed) {
   report_.supervisor = decision.memory;
   report_.outputs = decision.outputs;
   if (request_ != safety::Request::kNone) report_.refused = decision.outputs.refused;
+  const bool is_reset =
+      request_ == safety::Request::kReset && decision.outputs.refused == Cause::kNone;
+  if (is_reset && links_.drives != nullptr) links_.drives->reset_faults(now);
   tell_changes(before, now);
 }
 
@@ -188,6 +191,8 @@ safety::Inputs ServoLoop::inputs_at(TimePoint now) {
   tell_devices(now);
   inputs.drive_fault = report_.drives.any_fault;
   inputs.drives_alive = report_.drives.all_alive;
+  inputs.drives_ready = report_.drives.all_ready;
+  inputs.drives_guarded = report_.drives.guards_itself;
   inputs.bus_ok =
       links_.bus == nullptr || (report_.bus != hal::BusState::kDown &&
                                 report_.bus != hal::BusState::kOff && bus_watch_.fresh(now));
@@ -314,11 +319,15 @@ void ServoLoop::tell_devices(TimePoint now) {
   const hal::DriveGroupHealth before = report_.drives;
   report_.drives = links_.drives->health(now);
   const hal::DriveGroupHealth& after = report_.drives;
+  if (!after.all_ready && after.trouble_code != 0 && before.trouble_code != after.trouble_code) {
+    links_.events->raise(
+        make_event(telemetry::kDriveRefused, now, after.first_bad, after.trouble_code));
+  }
   if (before.all_alive == after.all_alive && before.any_fault == after.any_fault) return;
   const EventCode code = after.any_fault   ? telemetry::kDriveFault
                          : after.all_alive ? telemetry::kDrivesGood
                                            : telemetry::kDriveSilent;
-  links_.events->raise(make_event(code, now, after.first_bad));
+  links_.events->raise(make_event(code, now, after.first_bad, after.trouble_code));
 }
 
 }  // namespace gannet::daemon

@@ -23,7 +23,9 @@ constexpr std::array<const char*, kCauses> kCauseNames = {"none",
                                                           "target_old",
                                                           "target_uncertain",
                                                           "hold_expired",
-                                                          "disarmed"};
+                                                          "disarmed",
+                                                          "drives_not_ready",
+                                                          "drives_unguarded"};
 
 // What this cycle's inputs say, most urgent first: of all that are true, the first one that the
 // present state reacts to is taken, one transition a cycle.
@@ -109,6 +111,8 @@ Cause arming_obstacle(const SafetyConfig& config, State state, const Inputs& in)
   if (state == A) cause = first(cause, Cause::kNotStarted);
   if (!in.has_vehicle) cause = first(cause, Cause::kNoVehicle);
   cause = first(cause, fault_cause(in));
+  if (!in.drives_ready) cause = first(cause, Cause::kDrivesNotReady);
+  if (!in.drives_guarded) cause = first(cause, Cause::kDrivesUnguarded);
   if (!in.camera_alive && !hand(config, in)) cause = first(cause, Cause::kNoCamera);
   return cause;
 }

@@ -52,8 +52,10 @@ enum class Cause : std::uint8_t {
   kTargetUncertain,  // its position's standard deviation is too large
   kHoldExpired,      // held for too long without a target
   kDisarmed,         // a person asked for it
+  kDrivesNotReady,   // arm: a drive is not set up yet, or refused it
+  kDrivesUnguarded,  // arm: a drive would run on when we fall silent
 };
-inline constexpr int kCauses = 19;
+inline constexpr int kCauses = 21;
 
 enum class Light : std::uint8_t { kOff, kSlow, kOn, kFast };  // blinking 1 Hz, 5 Hz
 
@@ -71,6 +73,8 @@ struct Inputs {
   bool internal_fault = false;
   bool drive_fault = true;
   bool drives_alive = false;
+  bool drives_ready = false;    // set up; bars arming only
+  bool drives_guarded = false;  // stop by themselves when we fall silent; bars arming only
   bool bus_ok = false;
   bool overruns = false;  // OverrunWatch says too many
   bool limits_exceeded = false;

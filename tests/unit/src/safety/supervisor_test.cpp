@@ -22,6 +22,8 @@ Inputs quiet() {
   in.has_vehicle = true;
   in.drive_fault = false;
   in.drives_alive = true;
+  in.drives_ready = true;
+  in.drives_guarded = true;
   in.bus_ok = true;
   in.camera_alive = true;
   return in;
@@ -123,6 +125,11 @@ const Row kRows[] = {
      Cause::kInternalFault},
     {"drive fault", [](Inputs& in) { in.drive_fault = true; }, "BBFFFSF", Cause::kDriveFault},
     {"drives silent", [](Inputs& in) { in.drives_alive = false; }, "BBFFFSF", Cause::kDrivesSilent},
+    // Only arming asks for these: a drive that is lost while it runs says so as a fault.
+    {"drives not ready", [](Inputs& in) { in.drives_ready = false; }, "BBCEESF",
+     Cause::kTargetNone},
+    {"drives unguarded", [](Inputs& in) { in.drives_guarded = false; }, "BBCEESF",
+     Cause::kTargetNone},
     {"bus down", [](Inputs& in) { in.bus_ok = false; }, "BBFFFSF", Cause::kBusDown},
     {"overruns", [](Inputs& in) { in.overruns = true; }, "BBFFFSF", Cause::kOverruns},
     {"limits exceeded", [](Inputs& in) { in.limits_exceeded = true; }, "BBFFFSF", Cause::kLimits},
@@ -162,6 +169,18 @@ const Row kRows[] = {
        in.drives_alive = false;
      },
      "BBFFFSF", Cause::kDrivesSilent},
+    {"arm, drives not ready",
+     [](Inputs& in) {
+       in.request = Request::kArm;
+       in.drives_ready = false;
+     },
+     "BBCEESF", Cause::kTargetNone},
+    {"arm, drives unguarded",
+     [](Inputs& in) {
+       in.request = Request::kArm;
+       in.drives_guarded = false;
+     },
+     "BBCEESF", Cause::kTargetNone},
     {"arm, bus down",
      [](Inputs& in) {
        in.request = Request::kArm;
@@ -320,6 +339,8 @@ TEST(Supervisor, says_why_it_refuses) {
       {[](Inputs& in) { in.has_vehicle = false; }, State::kStandby, Cause::kNoVehicle},
       {[](Inputs& in) { in.drive_fault = true; }, State::kStandby, Cause::kDriveFault},
       {[](Inputs& in) { in.drives_alive = false; }, State::kStandby, Cause::kDrivesSilent},
+      {[](Inputs& in) { in.drives_ready = false; }, State::kStandby, Cause::kDrivesNotReady},
+      {[](Inputs& in) { in.drives_guarded = false; }, State::kStandby, Cause::kDrivesUnguarded},
       {[](Inputs& in) { in.bus_ok = false; }, State::kStandby, Cause::kBusDown},
       {[](Inputs& in) { in.overruns = true; }, State::kStandby, Cause::kOverruns},
       {[](Inputs& in) { in.limits_exceeded = true; }, State::kStandby, Cause::kLimits},
@@ -383,6 +404,8 @@ Inputs anything(Random& random) {
   in.internal_fault = !often(100);
   in.drive_fault = !often(60);
   in.drives_alive = often(60);
+  in.drives_ready = often(20);
+  in.drives_guarded = often(20);
   in.bus_ok = often(60);
   in.overruns = !often(60);
   in.limits_exceeded = !often(60);
@@ -420,6 +443,7 @@ TEST(Supervisor, holds_its_invariants_under_random_inputs) {
       ASSERT_EQ(after, State::kArmed);
       ASSERT_EQ(in.request, Request::kArm);
       ASSERT_TRUE(in.has_vehicle && in.drives_alive && in.bus_ok && !in.drive_fault);
+      ASSERT_TRUE(in.drives_ready && in.drives_guarded);
     }
     if (before == State::kStopped && after != before) {
       ASSERT_EQ(in.request, Request::kReset);
