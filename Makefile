@@ -144,7 +144,10 @@ $B/tests/$1/run: $(patsubst %.cpp,$B/obj/%.o,$(wildcard tests/$1/*.cpp)) $(call 
 	@$$(link) $(LIBS) $(LIBS_GPIO) -lgtest_main -lgtest
 endef
 $(foreach t,$(BIG_TESTS),$(eval $(call big_rule,$t)))
-TEST_BINARIES := $(foreach r,$(UNIT_ROOMS),$B/tests/unit/$r/run) $(foreach t,$(BIG_TESTS),$B/tests/$t/run)
+# ThreadSanitizer has something to say only where threads meet.
+THREADED := platform/base platform/linux hal/camera hal/can hal/gpio src/control src/telemetry src/daemon src/world
+TESTED_ROOMS := $(if $(filter tsan,$(PROFILE)),$(filter $(THREADED),$(UNIT_ROOMS)),$(UNIT_ROOMS))
+TEST_BINARIES := $(foreach r,$(TESTED_ROOMS),$B/tests/unit/$r/run) $(foreach t,$(BIG_TESTS),$B/tests/$t/run)
 TEST_SCRIPTS  := $(sort $(wildcard tests/style/*.sh tests/golden/*.sh tests/system/*.sh))
 
 tests: $(TEST_BINARIES)
