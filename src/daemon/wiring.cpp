@@ -237,19 +237,20 @@ bool Daemon::take_step() {
   return false;
 }
 
-// The manager is told that all is well only while every loop has moved since the last time.
 void Daemon::feed_watchdog() {
-  const Duration limit = linux_os::sd_watchdog();
-  const TimePoint now = linux_os::monotonic_now();
-  if (limit.count() == 0 || now - fed_ < limit / 3) return;
-  const std::uint64_t cycles[3] = {facts_.capture_cycles, facts_.vision_cycles,
-                                   facts_.servo_cycles};
-  for (int i = 0; i < 3; ++i) {
-    if (cycles[i] == fed_cycles_[i]) return;
+  const WatchdogFeed::Cycles cycles = {facts_.capture_cycles, facts_.vision_cycles,
+                                       facts_.servo_cycles};
+  switch (feed_.look(linux_os::monotonic_now(), cycles)) {
+    case WatchdogFeed::Say::kAlive:
+      linux_os::sd_notify("WATCHDOG=1");
+      return;
+    case WatchdogFeed::Say::kStuck:
+      log(Severity::kError, "these loops stand still: " + feed_.standing_still() +
+                                "; if that lasts, the service manager will restart gannetd");
+      return;
+    case WatchdogFeed::Say::kNothing:
+      return;
   }
-  std::copy(cycles, cycles + 3, fed_cycles_);
-  fed_ = now;
-  linux_os::sd_notify("WATCHDOG=1");
 }
 
 void Daemon::stop() {

@@ -14,6 +14,7 @@
 
 #include "platform/base/result.hpp"
 #include "platform/linux/clock.hpp"
+#include "platform/linux/sd_notify.hpp"
 #include "platform/linux/step_socket.hpp"
 #include "platform/linux/worker_pool.hpp"
 #include "src/control/server.hpp"
@@ -24,6 +25,7 @@
 #include "src/daemon/reports.hpp"
 #include "src/daemon/servo_loop.hpp"
 #include "src/daemon/vision_loop.hpp"
+#include "src/daemon/watchdog_feed.hpp"
 
 namespace gannet::daemon {
 
@@ -83,8 +85,7 @@ class Daemon {
   std::unique_ptr<ControlCommands> commands_;
   const Duration period_;
   std::optional<TimePoint> next_servo_;  // stepped
-  std::uint64_t fed_cycles_[3] = {};
-  TimePoint fed_ = {};
+  WatchdogFeed feed_{linux_os::sd_watchdog()};
   linux_os::Thread capture_thread_, vision_thread_, servo_thread_, archive_thread_;
 };
 

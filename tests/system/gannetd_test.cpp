@@ -2,6 +2,7 @@
 // starts, answers, stops, and what it says when something is wrong.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/ptrace.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <sys/wait.h>
@@ -269,25 +270,39 @@ TEST_F(GannetdTest, ends_of_interrupts_and_events_are_told) {
   EXPECT_EQ(daemon.exit_code(), 0);
 }
 
-TEST_F(GannetdTest, the_service_manager_is_told_and_fed) {
-  const std::string path = folder_ / "notify";
-  const linux_os::Fd manager(socket(AF_UNIX, SOCK_DGRAM, 0));
-  sockaddr_un address = {};
-  address.sun_family = AF_UNIX;
-  path.copy(address.sun_path, sizeof address.sun_path - 1);
-  ASSERT_EQ(bind(manager.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-  setenv("NOTIFY_SOCKET", path.c_str(), 1);
-  setenv("WATCHDOG_USEC", "300000", 1);
-  DaemonProcess daemon = start();
-  unsetenv("NOTIFY_SOCKET");
-  unsetenv("WATCHDOG_USEC");
-  const timeval patience = {10, 0};
-  setsockopt(manager.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-  const auto next = [&] {
+// Plays the service manager: gannetd is started under it and writes to its socket.
+class ServiceManagerTest : public GannetdTest {
+ protected:
+  static constexpr int kLimitMs = 600;
+
+  void SetUp() override {
+    GannetdTest::SetUp();
+    if (IsSkipped()) return;
+    const std::string path = folder_ / "notify";
+    sockaddr_un address = {};
+    address.sun_family = AF_UNIX;
+    path.copy(address.sun_path, sizeof address.sun_path - 1);
+    ASSERT_EQ(bind(socket_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    setenv("NOTIFY_SOCKET", path.c_str(), 1);
+    setenv("WATCHDOG_USEC", std::to_string(kLimitMs * 1000).c_str(), 1);
+  }
+  void TearDown() override {
+    unsetenv("NOTIFY_SOCKET");
+    unsetenv("WATCHDOG_USEC");
+  }
+  // The next message; "" when none comes within the patience.
+  std::string next(milliseconds patience = seconds(10)) {
+    const timeval limit = {patience.count() / 1000, patience.count() % 1000 * 1000};
+    setsockopt(socket_.get(), SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
     char text[64];
-    const ssize_t n = recv(manager.get(), text, sizeof text, 0);
+    const ssize_t n = recv(socket_.get(), text, sizeof text, 0);
     return std::string(text, n > 0 ? static_cast<std::size_t>(n) : 0);
-  };
+  }
+  const linux_os::Fd socket_{socket(AF_UNIX, SOCK_DGRAM, 0)};
+};
+
+TEST_F(ServiceManagerTest, is_told_and_fed) {
+  DaemonProcess daemon = start();
   EXPECT_EQ(next(), "READY=1");
   EXPECT_EQ(next(), "WATCHDOG=1");
   EXPECT_EQ(next(), "WATCHDOG=1");
@@ -295,6 +310,56 @@ TEST_F(GannetdTest, the_service_manager_is_told_and_fed) {
   std::string last = next();
   while (last == "WATCHDOG=1") last = next();
   EXPECT_EQ(last, "STOPPING=1");
+}
+
+// One thread of another process, held still as a debugger does it.
+class HeldThread {
+ public:
+  explicit HeldThread(pid_t thread) : thread_(thread) {
+    held_ = ptrace(PTRACE_SEIZE, thread, nullptr, nullptr) == 0 &&
+            ptrace(PTRACE_INTERRUPT, thread, nullptr, nullptr) == 0 &&
+            waitpid(thread, nullptr, __WALL) == thread;
+  }
+  ~HeldThread() {
+    if (held_) ptrace(PTRACE_DETACH, thread_, nullptr, nullptr);
+  }
+  HeldThread(const HeldThread&) = delete;
+  HeldThread& operator=(const HeldThread&) = delete;
+  bool held() const { return held_; }
+
+ private:
+  const pid_t thread_;
+  bool held_ = false;
+};
+
+pid_t thread_named(pid_t process, const std::string& name) {
+  for (const auto& task : fs::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
+    std::string comm;
+    std::getline(std::ifstream(task.path() / "comm"), comm);
+    if (comm == name) return std::stoi(task.path().filename());
+  }
+  return -1;
+}
+
+TEST_F(ServiceManagerTest, hears_nothing_while_one_loop_hangs) {
+  DaemonProcess daemon = start();
+  EXPECT_EQ(next(), "READY=1");
+  EXPECT_EQ(next(), "WATCHDOG=1");
+  for (const char* loop : {"capture", "vision", "servo"}) {
+    {
+      const HeldThread hung(thread_named(daemon.pid(), std::string("gannet-") + loop));
+      if (!hung.held()) GTEST_SKIP() << "no right to hold threads of a child (ptrace)";
+      // What the loop did before it hung may still be told, once.
+      std::this_thread::sleep_for(milliseconds(kLimitMs / 2));
+      while (!next(milliseconds(1)).empty()) {
+      }
+      EXPECT_EQ(next(milliseconds(2 * kLimitMs)), "") << loop;
+    }
+    EXPECT_EQ(next(), "WATCHDOG=1") << loop << " goes on again";
+    EXPECT_NE(said("log").find(std::string("stand still: ") + loop), std::string::npos)
+        << said("log");
+  }
+  EXPECT_EQ(daemon.stop(seconds(10)), 0);
 }
 
 TEST_F(GannetdTest, what_it_records_can_be_replayed) {
