@@ -36,6 +36,18 @@ void describe(Visitor& v, SafetyConfig& c) {
            .max = 10,
            .unit = "s",
            .help = "Without any frame on the bus for longer it counts as down."});
+  v.field("estop_release_s", c.estop_release_s,
+          {.min = 0,
+           .max = 5,
+           .unit = "s",
+           .help = "The e-stop counts as released when it has been quiet for so long; pressing "
+                   "acts at once."});
+  v.field("estop_discrepancy_s", c.estop_discrepancy_s,
+          {.min = 0.01,
+           .max = 5,
+           .unit = "s",
+           .help = "The two channels of an e-stop may disagree for so long, while the button "
+                   "moves."});
   v.field("overrun_limit", c.overrun_limit,
           {.min = 1,
            .max = 100000,

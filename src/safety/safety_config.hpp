@@ -7,14 +7,16 @@
 namespace gannet::safety {
 
 struct SafetyConfig {
-  double full_age_s = 0.3;        // oldest estimate that is still followed
-  double full_sigma_m = 0.05;     // largest position uncertainty that is still followed
-  double hold_limit_s = 10;       // Holding → Standby after this long
-  double manual_age_s = 0.3;      // oldest hand command that still counts
-  double drive_feedback_s = 0.5;  // a drive unheard for longer is silent
-  double camera_age_s = 0.5;      // no frame for longer: the cameras are dead
-  double bus_age_s = 0.5;         // no frame sent or received for longer: the bus is down
-  int overrun_limit = 20;         // missed periods within overrun_window_s that are a fault
+  double full_age_s = 0.3;           // oldest estimate that is still followed
+  double full_sigma_m = 0.05;        // largest position uncertainty that is still followed
+  double hold_limit_s = 10;          // Holding → Standby after this long
+  double manual_age_s = 0.3;         // oldest hand command that still counts
+  double drive_feedback_s = 0.5;     // a drive unheard for longer is silent
+  double camera_age_s = 0.5;         // no frame for longer: the cameras are dead
+  double bus_age_s = 0.5;            // no frame sent or received for longer: the bus is down
+  double estop_release_s = 0.05;     // the e-stop is released when quiet for so long
+  double estop_discrepancy_s = 0.1;  // its two channels may disagree for so long
+  int overrun_limit = 20;            // missed periods within overrun_window_s that are a fault
   double overrun_window_s = 1;
 };
 
