@@ -174,7 +174,8 @@ help:
 	@echo "make arm64        cross-compile for ARM64, run the kernels' tests under qemu"
 	@echo "make docs         write man pages and references from the descriptions in the code"
 	@echo "make format       clang-format everything"
-	@echo "make install      DESTDIR= PREFIX=/usr/local"
+	@echo "make install      DESTDIR= PREFIX=/usr/local; enables and starts nothing"
+	@echo "make deb          .deb packages into build/deb: this architecture, and arm64 cross-built"
 	@echo "make unit/ROOM    the tests of one room, e.g. make unit/src/vision"
 	@echo "make clean        remove build/ except what was downloaded"
 	@echo "PROFILE=release|debug|asan|tsan   CXX=g++|clang++   CXXFLAGS=…   -jN"
@@ -217,22 +218,37 @@ format:
 docs: all
 	@tests/support/make_docs.sh $B
 
+# Programs, man pages, scenarios and examples; and what makes gannetd a service. What stands in /etc is
+# somebody's and stays. Nothing is enabled or started.
+STRIP ?= strip
+SHARE  = $(DESTDIR)$(PREFIX)/share
+SYSTEM = $(DESTDIR)$(PREFIX)/lib
 install: all
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1 $(DESTDIR)$(PREFIX)/share/man/man5 \
-	  $(DESTDIR)$(PREFIX)/share/man/man8 $(DESTDIR)$(PREFIX)/share/gannet/scenarios \
-	  $(DESTDIR)$(PREFIX)/share/gannet/boards $(DESTDIR)$(PREFIX)/share/doc/gannet/examples
-	install -s $(foreach p,$(PROGRAMS),$B/bin/$p) $(DESTDIR)$(PREFIX)/bin
+	install -d $(DESTDIR)$(PREFIX)/bin $(SHARE)/man/man1 $(SHARE)/man/man5 $(SHARE)/man/man8 \
+	  $(SHARE)/gannet/scenarios $(SHARE)/gannet/boards $(SHARE)/gannet/assets \
+	  $(SHARE)/doc/gannet/examples $(SHARE)/doc/gannet/guides $(DESTDIR)/etc/gannet/gannet.toml.d \
+	  $(SYSTEM)/systemd/system $(SYSTEM)/sysusers.d $(SYSTEM)/tmpfiles.d $(SYSTEM)/udev/rules.d
+	install $(foreach p,$(PROGRAMS),$B/bin/$p) $(DESTDIR)$(PREFIX)/bin
+	$(STRIP) --remove-section=.comment $(foreach p,$(PROGRAMS),$(DESTDIR)$(PREFIX)/bin/$p)
 	for n in 1 5 8; do for f in docs/man/*.$$n; do [ ! -e $$f ] || \
-	  install -m 644 $$f $(DESTDIR)$(PREFIX)/share/man/man$$n; done; done
-	install -m 644 tests/scenarios/*.toml $(DESTDIR)$(PREFIX)/share/gannet/scenarios
-	install -m 644 platform/boards/*.toml $(DESTDIR)$(PREFIX)/share/gannet/boards
-	install -m 644 docs/examples/*.toml $(DESTDIR)$(PREFIX)/share/doc/gannet/examples
+	  install -m 644 $$f $(SHARE)/man/man$$n; done; done
+	install -m 644 tests/scenarios/*.toml $(SHARE)/gannet/scenarios
+	install -m 644 platform/boards/*.toml $(SHARE)/gannet/boards
+	for f in $(WORLD_ASSETS); do [ ! -e $$f ] || install -m 644 $$f $(SHARE)/gannet/assets; done
+	install -m 644 docs/examples/*.toml $(SHARE)/doc/gannet/examples
+	install -m 644 docs/guides/*.md $(SHARE)/doc/gannet/guides
+	for f in systemd/*.service systemd/*.slice; do \
+	  sed 's,/usr/bin/gannet,$(PREFIX)/bin/gannet,g' $$f >$(SYSTEM)/systemd/system/$${f##*/}; done
+	install -m 644 systemd/sysusers.conf $(SYSTEM)/sysusers.d/gannet.conf
+	install -m 644 systemd/tmpfiles.conf $(SYSTEM)/tmpfiles.d/gannet.conf
+	install -m 644 systemd/udev.rules $(SYSTEM)/udev/rules.d/60-gannet.rules
+	[ -e $(DESTDIR)/etc/gannet/gannet.toml ] || install -m 644 systemd/gannet.toml $(DESTDIR)/etc/gannet
 
 clean:
 	find build -mindepth 1 -maxdepth 1 ! -name assets -exec rm -rf {} + 2>/dev/null; true
 
 .PHONY: all tests help deps check run-tests asan tsan clang arm64 format docs install clean
 
-include tests/support/assets.mk tests/support/bench.mk tests/support/demo.mk
+include tests/support/assets.mk tests/support/bench.mk tests/support/demo.mk systemd/deb/deb.mk
 
 -include $(shell find $B -name '*.d' 2>/dev/null)

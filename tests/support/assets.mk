@@ -7,6 +7,7 @@ STAMPS := fish/butterflyfish fish/lionfish fish/seahorse fish/bluegroper fish/co
 STAMP_FILES  := $(addprefix $(ASSETS)/,$(addsuffix .png,$(notdir $(STAMPS)))) $(ASSETS)/fireman.png
 STEREO_FILES := $(addprefix $(ASSETS)/,motorcycle_left.png motorcycle_right.png motorcycle_disp.npz \
                   gravel.png)
+WORLD_ASSETS := $(STAMP_FILES) $(ASSETS)/gravel.png  # what the simulated world reads
 
 assets: $(STAMP_FILES) $(STEREO_FILES)
 .PHONY: assets
