@@ -48,13 +48,19 @@ Result<std::unique_ptr<Daemon>> Daemon::create(config::LoadedConfig loaded, Part
 
 Daemon::~Daemon() { stop(); }
 
-// The control socket first: a second daemon must not touch a device of the first one.
+// The control socket and the claim on the bus first: a second daemon must not touch a device of the
+// first one.
 Result<void> Daemon::open() {
   const config::DaemonConfig& config = loaded_.config;
   if (!config.control.socket.empty()) {
     auto server = control::Server::listen(config.control.socket, config.control.group);
     if (!server) return server.error();
     server_ = std::move(*server);
+  }
+  if (config.vehicle.kind != "none" && config.can.kind == "socketcan") {
+    auto claim = claim_interface(config.can.interface);
+    if (!claim) return claim.error();
+    bus_claim_ = std::move(*claim);
   }
   if (is_stepped()) {
     auto steps = linux_os::StepClient::connect(config.clock.step_socket, seconds(10));

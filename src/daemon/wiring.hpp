@@ -20,6 +20,7 @@
 #include "src/control/server.hpp"
 #include "src/daemon/archive_loop.hpp"
 #include "src/daemon/capture_loop.hpp"
+#include "src/daemon/claimed_interface.hpp"
 #include "src/daemon/control_commands.hpp"
 #include "src/daemon/parts.hpp"
 #include "src/daemon/reports.hpp"
@@ -65,6 +66,7 @@ class Daemon {
   const config::LoadedConfig loaded_;
   Parts parts_;
   std::unique_ptr<control::Server> server_;
+  linux_os::UnixListener bus_claim_;  // of a real bus
   std::optional<linux_os::StepClient> steps_;
   linux_os::LiveClock live_clock_;
   linux_os::SteppedClock stepped_clock_;

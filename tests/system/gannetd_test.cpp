@@ -21,6 +21,7 @@
 #include "platform/base/random.hpp"
 #include "platform/linux/fd.hpp"
 #include "src/control/client.hpp"
+#include "src/daemon/claimed_interface.hpp"
 #include "src/image_file/image_file.hpp"
 #include "src/world/daemon_process.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -214,6 +215,24 @@ TEST_F(GannetdTest, a_second_daemon_is_refused_and_the_first_one_goes_on) {
   EXPECT_NE(said().find("already served"), std::string::npos) << said();
   EXPECT_TRUE(client->call("status"));
   EXPECT_EQ(first.stop(seconds(10)), 0);
+}
+
+TEST_F(GannetdTest, a_second_daemon_with_a_socket_of_its_own_is_refused_the_same_bus) {
+  std::ofstream(folder_ / "rig.toml", std::ios::app)
+      << "[body_from_hand]\nrotation = [0, 0, 1, -1, 0, 0, 0, -1, 0]\n";
+  std::string motors;
+  for (int i = 0; i < 6; ++i) {
+    motors += "[[drive.motor]]\nindex = " + std::to_string(i) +
+              "\nnode_id = " + std::to_string(20 + i) + "\n";
+  }
+  const std::string interface = "t" + std::to_string(getpid());
+  write_config(
+      "[vehicle]\nkind = \"rov\"\nrov.frame = \"vectored\"\n[can]\nkind = \"socketcan\"\n" +
+      ("interface = \"" + interface + "\"\n") + motors);
+  const auto first = daemon::claim_interface(interface);
+  ASSERT_TRUE(first) << first.error().text;
+  EXPECT_EQ(run_to_end({"-c", folder_ / "gannet.toml"}), 3);
+  EXPECT_NE(said().find("another gannetd commands " + interface), std::string::npos) << said();
 }
 
 TEST_F(GannetdTest, one_that_was_killed_leaves_nothing_that_hinders_the_next) {
