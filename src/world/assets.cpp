@@ -72,7 +72,11 @@ const Creature* find_creature(std::string_view name) {
 
 std::string assets_folder() {
   const char* set = std::getenv("GANNET_ASSETS");
-  return set ? set : "build/assets";
+  if (set != nullptr) return set;
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  const auto installed = (program / "../share/gannet/assets").lexically_normal();
+  return std::filesystem::exists(installed, error) ? installed.string() : "build/assets";
 }
 
 bool assets_present(const std::string& folder) {

@@ -28,7 +28,8 @@ struct Creature {
 std::span<const Creature> creatures();
 const Creature* find_creature(std::string_view name);  // null: unknown
 
-// Where `make assets` put them: $GANNET_ASSETS, or build/assets below the working directory.
+// Where the photographs are: $GANNET_ASSETS, ../share/gannet/assets beside an installed program, or
+// where `make assets` puts them, build/assets below the working directory.
 std::string assets_folder();
 bool assets_present(const std::string& folder);
 
