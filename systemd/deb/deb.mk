@@ -21,16 +21,16 @@ deb-native:
 
 # Cross-built: libraries of arm64 from Debian, unpacked below build/arm64; nothing is installed.
 SYSROOT := build/arm64/sysroot
-SYSLIB  := $(SYSROOT)/root/usr/lib/$(ARM64)
+SYSLIB  := $(SYSROOT)/tree/usr/lib/$(ARM64)
 cross   := B=build/arm64/release CXX=$(ARM64)-g++ STRIP=$(ARM64)-strip \
            PKG_CONFIG='env PKG_CONFIG_LIBDIR=$(SYSLIB)/pkgconfig pkg-config' \
-           CXXFLAGS='-g0 -isystem $(SYSROOT)/root/usr/include' \
-           LDFLAGS='-L$(SYSLIB) -L$(SYSROOT)/root/lib/$(ARM64) -Wl,-rpath-link,$(SYSLIB):$(SYSROOT)/root/lib/$(ARM64)'
+           CXXFLAGS='-g0 -isystem $(SYSROOT)/tree/usr/include' \
+           LDFLAGS='-L$(SYSLIB) -L$(SYSROOT)/tree/lib/$(ARM64) -Wl,-rpath-link,$(SYSLIB):$(SYSROOT)/tree/lib/$(ARM64)'
 deb-arm64:
 	@$(call need,g++-$(ARM64) dpkg-dev)
 	@systemd/deb/sysroot.sh arm64 $(SYSROOT) libpng-dev libturbojpeg0-dev libgpiod-dev libstdc++6
 	@$(MAKE) --no-print-directory all $(cross)
 	@$(call stage,arm64) $(cross) >/dev/null
 	@$(deb_env) systemd/deb/build.sh arm64 build/deb/stage-arm64 build/deb \
-	  $(CURDIR)/$(SYSROOT)/dpkg $(CURDIR)/$(SYSROOT)/root/lib/$(ARM64) $(CURDIR)/$(SYSLIB)
+	  $(CURDIR)/$(SYSROOT)/dpkg $(CURDIR)/$(SYSROOT)/tree/lib/$(ARM64) $(CURDIR)/$(SYSLIB)
 .PHONY: deb deb-native deb-arm64

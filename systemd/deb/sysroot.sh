@@ -9,7 +9,7 @@ shift 2
 stamp=$dir/complete
 [ "$(cat "$stamp" 2>/dev/null)" = "$*" ] && exit 0
 rm -rf "$dir"
-mkdir -p "$dir"/apt/{lists/partial,cache/archives/partial,log} "$dir/dpkg/info" "$dir/root"
+mkdir -p "$dir"/apt/{lists/partial,cache/archives/partial,log} "$dir/dpkg/info" "$dir/tree"
 : >"$dir/apt/status"
 apt=(apt-get -qq -o "APT::Architecture=$arch" -o "APT::Architectures=$arch" -o APT::Sandbox::User=root
      -o "Dir::State=$dir/apt" -o "Dir::State::lists=$dir/apt/lists" -o "Dir::State::status=$dir/apt/status"
@@ -25,10 +25,10 @@ for deb in "$dir"/apt/cache/archives/*.deb; do
     # The cross compiler brings headers of its own.
     libc6-dev | libc-dev-bin | linux-libc-dev | libcrypt-dev | libstdc++-*-dev | libgcc-*-dev) continue ;;
   esac
-  dpkg-deb -x "$deb" "$dir/root"
+  dpkg-deb -x "$deb" "$dir/tree"
   # What dpkg would have written, with the paths where the files really are.
   info=$dir/dpkg/info/$name:$arch
-  dpkg-deb --fsys-tarfile "$deb" | tar -t | sed -e 's|/$||' -e "s|^\.|$dir/root|" >"$info.list"
+  dpkg-deb --fsys-tarfile "$deb" | tar -t | sed -e 's|/$||' -e "s|^\.|$dir/tree|" >"$info.list"
   mkdir "$dir/control"
   dpkg-deb -e "$deb" "$dir/control"
   for file in symbols shlibs; do
