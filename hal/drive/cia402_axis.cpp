@@ -18,8 +18,9 @@ constexpr Duration kRetry = std::chrono::seconds(1);            // after a refus
 constexpr Duration kAskAgain = std::chrono::milliseconds(500);  // after silence
 constexpr Duration kStepTime = std::chrono::milliseconds(500);  // kExpectSoon
 constexpr Duration kStartTime = std::chrono::seconds(1);        // NMT start to operational
-constexpr Duration kEnableTime = std::chrono::seconds(1);       // enable to operation enabled
-constexpr Duration kResetTime = std::chrono::seconds(5);        // a person's reset is valid so long
+constexpr Duration kStartAgain = std::chrono::milliseconds(150);
+constexpr Duration kEnableTime = std::chrono::seconds(1);  // enable to operation enabled
+constexpr Duration kResetTime = std::chrono::seconds(5);   // a person's reset is valid so long
 constexpr Duration kPulseTime = std::chrono::milliseconds(200);  // of the fault reset bit
 constexpr Duration kHeardTime = std::chrono::seconds(3);         // while it is not yet set up
 constexpr ObjectId kErrorCode = {0x603F, 0};
@@ -184,6 +185,7 @@ int Cia402Axis::manage(TimePoint now, std::span<CanFrame> out) {
   if (phase_ == AxisPhase::kRunning) ask_for_code();
   std::size_t n = 0;
   if (nmt_) out[n++] = canopen::nmt_frame(*nmt_, settings_.node);
+  if (nmt_ == NmtCommand::kStart) start_sent_ = now;
   nmt_.reset();
   if (const auto request = sdo_.poll(now)) out[n++] = *request;
   set_state(now);
@@ -199,8 +201,12 @@ void Cia402Axis::watch(TimePoint now) {
     case AxisPhase::kRefused:
       if (in_phase >= kRetry) begin_setup(now);
       break;
-    case AxisPhase::kStarting:
-      if (in_phase >= kStartTime) begin_setup(now);
+    case AxisPhase::kStarting:  // the command, or what told of its effect, may have been lost
+      if (in_phase >= kStartTime) {
+        begin_setup(now);
+      } else if (now - start_sent_ >= kStartAgain) {
+        nmt_ = NmtCommand::kStart;
+      }
       break;
     case AxisPhase::kRunning:
       if (now - std::max(heartbeat_, phase_since_) > from_seconds(config_.node_timeout_s)) {
@@ -326,14 +332,15 @@ bool Cia402Axis::is_faulty() const {
   return trip_ != Trip::kNone || state_ == State::kFault || state_ == State::kFaultReaction;
 }
 
+std::uint16_t Cia402Axis::fault_code() const {
+  if (!is_faulty()) return 0;
+  const bool is_ours = trip_ != Trip::kNone && trip_ != Trip::kFault;
+  if (!is_ours && emergency_.code != 0) return emergency_.code;
+  return static_cast<std::uint16_t>(is_ours ? trip_ : Trip::kFault);
+}
+
 void Cia402Axis::set_state(TimePoint now) {
-  feedback_.fault_code = 0;
-  if (is_faulty()) {
-    const bool is_ours = trip_ != Trip::kNone && trip_ != Trip::kFault;
-    feedback_.fault_code = !is_ours && emergency_.code != 0
-                               ? emergency_.code
-                               : static_cast<std::uint16_t>(is_ours ? trip_ : Trip::kFault);
-  }
+  feedback_.fault_code = fault_code();
   feedback_.state = is_faulty()                          ? DriveState::kFault
                     : !is_ready(now)                     ? DriveState::kUnknown
                     : state_ == State::kOperationEnabled ? DriveState::kEnabled

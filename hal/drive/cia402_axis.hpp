@@ -80,6 +80,7 @@ class Cia402Axis {
   bool is_alive(TimePoint now) const;  // heard lately
   bool is_ready(TimePoint now) const;  // may be enabled, but for a fault
   bool is_faulty() const;
+  std::uint16_t fault_code() const;  // of the EMCY or the trip; 0: not faulty
   const canopen::Emergency& emergency() const { return emergency_; }
   const DriveFeedback& feedback() const { return feedback_; }
 
@@ -109,6 +110,7 @@ class Cia402Axis {
   std::size_t step_ = 0;
   std::optional<TimePoint> step_since_;     // of a step that is asked again
   std::optional<canopen::NmtCommand> nmt_;  // to be sent
+  TimePoint start_sent_ = {};
   bool watches_us_ = false, reacts_ = false, watches_setpoints_ = false;
   double rated_current_a_ = 0;
   Refusal refusal_;

@@ -17,8 +17,8 @@ namespace {
 void tell_trouble(const Cia402Axis& axis, DriveGroupHealth& health) {
   const cia402::Refusal& refusal = axis.refusal();
   if (axis.is_faulty()) {
-    health.trouble_code = axis.feedback().fault_code;
-    health.trouble = canopen::words_of_emergency(axis.feedback().fault_code);
+    health.trouble_code = axis.fault_code();
+    health.trouble = canopen::words_of_emergency(axis.fault_code());
   } else if (refusal.object.index != 0) {
     health.trouble_code =
         static_cast<std::uint32_t>(refusal.object.index) << 8 | refusal.object.sub;
