@@ -35,7 +35,12 @@ PreparedFrame::PreparedFrame(int width, int height, PlaneNeeds needs)
       const int h = height >> l;
       for (auto& channel : buffers.level[l]) channel.resize(area(w, h));
       buffers.packed[l].resize(area(w, h) + kSpareCells);
-      planes.packed[l] = {buffers.packed[l].data(), w, h, w * h};
+      planes.packed[l] = {
+          buffers.packed[l].data(),
+          w,
+          h,
+          w * h,
+          {buffers.level[l][0].data(), buffers.level[l][1].data(), buffers.level[l][2].data()}};
     }
     for (std::size_t c = 0; c < 3; ++c) planes.smooth[c] = buffers.level[0][c].data();
     if (!needs.hue_value) continue;

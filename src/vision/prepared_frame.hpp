@@ -28,6 +28,7 @@ struct PackedPlane {
   int width = 0;
   int height = 0;
   int guard = 0;  // index of the cell outside; also the number of cells
+  std::array<const std::uint8_t*, 3> smooth = {};  // the same as bytes: Y U V, σ ≈ 1 of its pixels
 };
 
 struct EyePlanes {

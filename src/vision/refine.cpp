@@ -3,6 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "src/vision/kernels/refine_sums.hpp"
 
 namespace gannet::vision {
 namespace {
@@ -11,91 +14,39 @@ using Eigen::Matrix;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A camera's pixel of a point and its derivative.
-struct Projection {
-  Vector2d pixel;
-  Matrix<double, 2, 3> by_point;
-};
+constexpr int kPartPoints = 256;  // a lens's table is made for so many at a time
 
-bool project(const Intrinsics& camera, const Vector3d& p, Projection& out) {
-  if (p.z() <= 1e-6) return false;
-  const double x = p.x() / p.z();
-  const double y = p.y() / p.z();
-  Matrix<double, 2, 3> normalised;
-  normalised << 1 / p.z(), 0, -x / p.z(), 0, 1 / p.z(), -y / p.z();
-  Vector2d at(x, y);
-  Eigen::Matrix2d lens = Eigen::Matrix2d::Identity();
-  if (camera.distortion != Distortion::kNone) {
-    if (at.squaredNorm() > camera.valid_radius() * camera.valid_radius()) return false;
-    constexpr double kStep = 1e-6;
-    lens.col(0) = (camera.distort({x + kStep, y}) - camera.distort({x - kStep, y})) / (2 * kStep);
-    lens.col(1) = (camera.distort({x, y + kStep}) - camera.distort({x, y - kStep})) / (2 * kStep);
-    at = camera.distort(at);
-  }
-  out.pixel = {camera.fx * at.x() + camera.cx, camera.fy * at.y() + camera.cy};
-  out.by_point = Vector2d(camera.fx, camera.fy).asDiagonal() * lens * normalised;
-  return true;
+// A camera scaled to a level of the pyramid.
+Intrinsics at_level(Intrinsics camera, int level) {
+  const double scale = 1.0 / (1 << level);
+  camera.fx *= scale;
+  camera.fy *= scale;
+  camera.cx = (camera.cx + 0.5) * scale - 0.5;
+  camera.cy = (camera.cy + 0.5) * scale - 0.5;
+  return camera;
 }
-
-struct Sample {
-  double value;
-  Vector2d gradient;  // per pixel
-};
-
-// A place between four pixels, the same in each channel's plane.
-class Place {
- public:
-  // False: too near to the border, or outside.
-  bool set(int width, int height, const Vector2d& at) {
-    if (!(at.x() >= 1 && at.y() >= 1 && at.x() < width - 2 && at.y() < height - 2)) return false;
-    const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
-    a_ = at.x() - x;
-    b_ = at.y() - y;
-    width_ = width;
-    offset_ = y * width + x;
-    return true;
-  }
-  // Bilinear value; gradient of central differences, bilinear too.
-  Sample sample(const std::uint8_t* plane) const {
-    const std::uint8_t* p = plane + offset_;
-    const int w = width_;
-    const auto mix = [&](auto&& f) {
-      return (1 - b_) * ((1 - a_) * f(p) + a_ * f(p + 1)) +
-             b_ * ((1 - a_) * f(p + w) + a_ * f(p + w + 1));
-    };
-    Sample out;
-    out.value = mix([](const std::uint8_t* q) { return static_cast<double>(*q); });
-    out.gradient.x() = mix([](const std::uint8_t* q) { return 0.5 * (q[1] - q[-1]); });
-    out.gradient.y() = mix([w](const std::uint8_t* q) { return 0.5 * (q[w] - q[-w]); });
-    return out;
-  }
-
- private:
-  double a_ = 0, b_ = 0;
-  int width_ = 0, offset_ = 0;
-};
 
 // Weighted sums of one channel of one eye: residuals I − a·M − b and their derivatives by P
 // parameters, with a and b eliminated at the end.
 template <int P>
 struct ChannelSums {
-  double w = 0, m = 0, mm = 0, i = 0, im = 0, ii = 0;
-  Matrix<double, P, 1> j = Matrix<double, P, 1>::Zero(), jm = j, ji = j;
-  Matrix<double, P, P> jj = Matrix<double, P, P>::Zero();  // the lower half
+  double w, m, mm, i, im, ii;
+  Matrix<double, P, 1> j, jm, ji;
+  Matrix<double, P, P> jj;
 
-  void add(double weight, double model, double image, const Matrix<double, P, 1>& slope) {
-    w += weight;
-    m += weight * model;
-    mm += weight * model * model;
-    i += weight * image;
-    im += weight * image * model;
-    ii += weight * image * image;
-    j += weight * slope;
-    jm += weight * model * slope;
-    ji += weight * image * slope;
-    const Matrix<double, P, 1> weighted = weight * slope;
-    for (int col = 0; col < P; ++col) {
-      for (int row = col; row < P; ++row) jj(row, col) += weighted(row) * slope(col);
+  // Lanes are added in a fixed order.
+  explicit ChannelSums(const float (*lanes)[kSumLanes]) {
+    const auto next = [&lanes] {
+      const float* const l = *lanes++;
+      const auto of = [l](int k) { return static_cast<double>(l[k]); };
+      return ((of(0) + of(1)) + (of(2) + of(3))) + ((of(4) + of(5)) + (of(6) + of(7)));
+    };
+    for (double* sum : {&w, &m, &mm, &i, &im, &ii}) *sum = next();
+    for (auto* sum : {&j, &jm, &ji}) {
+      for (int k = 0; k < P; ++k) (*sum)(k) = next();
+    }
+    for (int k = 0; k < P; ++k) {
+      for (int l = k; l < P; ++l) jj(l, k) = jj(k, l) = next();
     }
   }
 
@@ -105,7 +56,7 @@ struct ChannelSums {
   };
   Fit fit() const {
     const double det = w * mm - m * m;
-    if (w < 8 || det <= 1e-9 * w * mm) return {};
+    if (w < 8 || det <= 1e-6 * w * mm) return {};
     Fit f;
     f.gain = (w * im - m * i) / det;
     f.offset = (i - f.gain * m) / w;
@@ -123,63 +74,145 @@ struct ChannelSums {
   }
 };
 
+// A part's pixels behind a lens, and how they move, for the kernels.
+struct LensTables {
+  std::array<float, kPartPoints> u, v;
+  std::array<std::array<float, kPartPoints>, 4> slopes;
+
+  void fill(const Intrinsics& camera, const RefineEye& eye, const RefinePart& part, bool rays) {
+    const double radius2 = camera.valid_radius() * camera.valid_radius();
+    for (int k = 0; k < part.n; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const Vector2d n =
+          normalised(eye, static_cast<double>(part.x[k]), static_cast<double>(part.y[k]), rays);
+      u[at] = v[at] = std::numeric_limits<float>::quiet_NaN();
+      for (auto& slope : slopes) slope[at] = 0;
+      if (!(n.squaredNorm() <= radius2)) continue;
+      constexpr double kStep = 1e-6;
+      const double x = n.x(), y = n.y();
+      const Vector2d by_x = camera.distort({x + kStep, y}) - camera.distort({x - kStep, y});
+      const Vector2d by_y = camera.distort({x, y + kStep}) - camera.distort({x, y - kStep});
+      const Vector2d moved = camera.distort(n);
+      u[at] = static_cast<float>(camera.fx * moved.x() + camera.cx);
+      v[at] = static_cast<float>(camera.fy * moved.y() + camera.cy);
+      const double fx = camera.fx / (2 * kStep), fy = camera.fy / (2 * kStep);
+      slopes[0][at] = static_cast<float>(fx * by_x.x());
+      slopes[1][at] = static_cast<float>(fx * by_y.x());
+      slopes[2][at] = static_cast<float>(fy * by_x.y());
+      slopes[3][at] = static_cast<float>(fy * by_y.y());
+    }
+  }
+
+ private:
+  // NaN behind the camera.
+  static Vector2d normalised(const RefineEye& eye, double x, double y, bool rays) {
+    Vector3d p;
+    for (int k = 0; k < 3; ++k) {
+      const float* const h = eye.h + 3 * k;
+      p(k) =
+          static_cast<double>(h[0]) * x + static_cast<double>(h[1]) * y + static_cast<double>(h[2]);
+    }
+    if (rays) {
+      const float* const n = eye.plane;
+      p /=
+          static_cast<double>(n[0]) * x + static_cast<double>(n[1]) * y + static_cast<double>(n[2]);
+      for (int k = 0; k < 3; ++k) p(k) += static_cast<double>(eye.arm[k]);
+    }
+    if (!(p.z() > 1e-6)) return Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+    return p.head<2>() / p.z();
+  }
+};
+
+void set(float* to, const Eigen::Matrix3d& m) {
+  for (int k = 0; k < 9; ++k) to[k] = static_cast<float>(m(k / 3, k % 3));
+}
+void set(float* to, const Vector3d& v) {
+  for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(v(k));
+}
+
 template <int P>
 struct Problem {
   const StereoRig& rig;
   const PointSet& points;
   const PreparedFrame& frame;
   const RefineOptions& options;
-  bool both_eyes;
+  const RefineKernels& kernels = refine_kernels();
   std::array<typename ChannelSums<P>::Fit, 6> fits = {};
 
-  // One pass: point_of(i, point, by_parameter) gives a point in the left camera and its slope.
-  template <class PointOf>
-  bool accumulate(PointOf&& point_of, Matrix<double, P, P>& hessian, Matrix<double, P, 1>& slope) {
-    std::array<ChannelSums<P>, 6> sums;
-    const Eigen::Matrix3d right = rig.right_from_left.rotation.toRotationMatrix();
-    for (int eye = both_eyes ? 0 : 1; eye < 2; ++eye) {
-      const Intrinsics& camera = eye == 0 ? rig.left : rig.right;
-      const EyePlanes& planes = eye == 0 ? frame.left() : frame.right();
-      for (int k = 0; k < points.total_padded; ++k) {
-        const auto i = static_cast<std::size_t>(k);
-        if (std::isnan(points.x[i])) continue;
-        Vector3d p;
-        Matrix<double, 3, P> by;
-        point_of(i, p, by);
-        if (eye == 1) {
-          p = right * p + rig.right_from_left.translation;
-          by = right * by;
-        }
-        Projection at;
-        if (!project(camera, p, at)) continue;
-        const Matrix<double, 2, P> pixel_by = at.by_point * by;
-        const double base = k < points.inside_padded ? 1.0 : options.outside_weight;
-        Place place;
-        if (!place.set(planes.width, planes.height, at.pixel)) continue;
-        const float model[3] = {points.colour[i].y, points.colour[i].u, points.colour[i].v};
-        for (std::size_t c = 0; c < 3; ++c) {
-          const Sample s = place.sample(planes.smooth[c]);
-          const std::size_t ce = static_cast<std::size_t>(3 * eye) + c;
-          const auto m = static_cast<double>(model[c]);
-          double weight = base;
-          if (fits[ce].ok) {
-            const double r = s.value - fits[ce].gain * m - fits[ce].offset;
-            weight /= 1 + r * r / (6 * fits[ce].variance);  // Cauchy at 2.4 σ
-          }
-          sums[ce].add(weight, m, s.value, pixel_by.transpose() * s.gradient);
-        }
-      }
-    }
+  // One pass; of_eye(eye, rotation, translation) tells the pose, rotation and translation being the
+  // camera's from the left one.
+  template <class OfEye>
+  bool accumulate(OfEye&& of_eye, Matrix<double, P, P>& hessian, Matrix<double, P, 1>& slope) {
     hessian.setZero();
     slope.setZero();
     int channels = 0;
-    for (std::size_t ce = 0; ce < 6; ++ce) {
-      fits[ce] = sums[ce].fit();
-      if (!fits[ce].ok) continue;
-      sums[ce].eliminate(fits[ce], hessian, slope);
-      ++channels;
+    for (int at = P == 6 ? 0 : 1; at < 2; ++at) {
+      const bool right = at == 1;
+      const Intrinsics camera = at_level(right ? rig.right : rig.left, options.level);
+      const Eigen::Matrix3d rotation = right ? rig.right_from_left.rotation.toRotationMatrix()
+                                             : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+      const Vector3d translation =
+          right ? rig.right_from_left.translation : Vector3d(Vector3d::Zero());
+      RefineEye eye = {};
+      of_eye(eye, rotation, translation);
+      set(eye.turn, Eigen::Matrix3d(rotation.transpose()));
+      eye.fx = static_cast<float>(camera.fx), eye.fy = static_cast<float>(camera.fy);
+      eye.cx = static_cast<float>(camera.cx), eye.cy = static_cast<float>(camera.cy);
+      const PackedPlane& plane =
+          (right ? frame.right() : frame.left()).packed[static_cast<std::size_t>(options.level)];
+      eye.width = plane.width, eye.height = plane.height;
+      for (std::size_t c = 0; c < 3; ++c) {
+        eye.smooth[c] = plane.smooth[c];
+        const auto& fit = fits[3 * static_cast<std::size_t>(at) + c];
+        if (!fit.ok) continue;
+        // The kernels' values are less 128. Cauchy at 2.4 σ.
+        eye.fit[c] = {static_cast<float>(fit.gain), static_cast<float>(fit.offset),
+                      static_cast<float>(1 / (6 * fit.variance))};
+      }
+      RefineSums<P> sums;
+      add(camera, eye, 0, points.inside_padded, 1, sums);
+      add(camera, eye, points.inside_padded, points.total_padded,
+          static_cast<float>(options.outside_weight), sums);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const ChannelSums<P> channel(sums.lanes[c]);
+        auto& fit = fits[3 * static_cast<std::size_t>(at) + c] = channel.fit();
+        if (!fit.ok) continue;
+        channel.eliminate(fit, hessian, slope);
+        ++channels;
+      }
     }
     return channels > 0;
+  }
+
+ private:
+  void add(const Intrinsics& camera, const RefineEye& eye, int begin, int end, float weight,
+           RefineSums<P>& sums) const {
+    const bool has_lens = camera.distortion != Distortion::kNone;
+    LensTables tables;
+    const LensPart lens = {tables.u.data(),
+                           tables.v.data(),
+                           {tables.slopes[0].data(), tables.slopes[1].data(),
+                            tables.slopes[2].data(), tables.slopes[3].data()}};
+    static_assert(sizeof(Yuv) == 3 * sizeof(float));
+    const int step = has_lens ? kPartPoints : end - begin;
+    for (int first = begin; first < end; first += step) {
+      const auto k = static_cast<std::size_t>(first);
+      RefinePart part = {points.x.data() + k,
+                         points.y.data() + k,
+                         &points.colour.data()[k].y,
+                         std::min(step, end - first),
+                         weight,
+                         nullptr};
+      if (has_lens) {
+        tables.fill(camera, eye, part, P == 3);
+        part.lens = &lens;
+      }
+      if constexpr (P == 6) {
+        kernels.add_pose(eye, part, sums);
+      } else {
+        kernels.add_plane(eye, part, sums);
+      }
+    }
   }
 };
 
@@ -203,34 +236,33 @@ bool invert(const Matrix<double, P, P>& hessian, double factor, Matrix<double, P
   return covariance.allFinite();
 }
 
-Eigen::Matrix3d cross_matrix(const Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 }  // namespace
 
 Refinement refine_pose(const StereoRig& rig, const PointSet& points, const PreparedFrame& frame,
                        const Transform<LeftCamera, Target>& start, const RefineOptions& options) {
   Refinement out = {false, start, Matrix6d::Zero()};
-  Problem<6> problem = {rig, points, frame, options, true, {}};
+  Problem<6> problem = {rig, points, frame, options};
   Matrix6d hessian;
   Vector6d slope, step;
   // A first pass without weights fits gains and variances for the weights of the next.
   for (int k = 0; k <= options.iterations; ++k) {
     const Eigen::Matrix3d rotation = out.left_from_target.rotation.toRotationMatrix();
-    const auto point_of = [&](std::size_t i, Vector3d& p, Matrix<double, 3, 6>& by) {
-      const Vector3d arm = rotation.col(0) * static_cast<double>(points.x[i]) +
-                           rotation.col(1) * static_cast<double>(points.y[i]);
-      p = arm + out.left_from_target.translation;
-      by.leftCols<3>().setIdentity();
-      by.rightCols<3>() = -cross_matrix(arm);
+    const auto of_eye = [&](RefineEye& eye, const Eigen::Matrix3d& r, const Vector3d& t) {
+      Eigen::Matrix3d h = r * rotation;
+      h.col(2) = r * out.left_from_target.translation + t;
+      set(eye.h, h);
+      set(eye.arm, Vector3d(rotation.col(0)));
+      set(eye.arm + 3, Vector3d(rotation.col(1)));
     };
-    if (!problem.accumulate(point_of, hessian, slope) || !solve<6>(hessian, slope, step)) {
+    if (!problem.accumulate(of_eye, hessian, slope) || !solve<6>(hessian, slope, step)) {
       return out;
     }
-    if (k == options.iterations) break;
+    // Within half a standard deviation of the optimum: what is left is noise.
+    const bool there = k > 0 && step.dot(hessian * step) < 0.25 * options.shared_noise;
+    if (k == options.iterations) {
+      if (!there) return out;
+      break;
+    }
     // A step is at most a few pixels: further away the gradients say nothing.
     const double z = out.left_from_target.translation.z();
     const double scale =
@@ -240,7 +272,7 @@ Refinement refine_pose(const StereoRig& rig, const PointSet& points, const Prepa
     const Vector3d turn = step.tail<3>();
     out.left_from_target.rotation =
         (quaternion_from_rotation_vector(turn) * out.left_from_target.rotation).normalized();
-    if (step.norm() < options.step_stop) break;
+    if (there && step.norm() < options.step_stop) break;
   }
   out.ok = invert<6>(hessian, options.shared_noise, out.covariance) &&
            out.left_from_target.translation.z() > 0;
@@ -259,17 +291,16 @@ Refinement refine_plane(const StereoRig& rig, const PointSet& points, const Prep
   Refinement out = {false, start, Matrix6d::Zero()};
   const Vector3d normal = start.rotation * Vector3d::UnitZ();
   Vector3d plane = normal / normal.dot(start.translation);
-  Problem<3> problem = {rig, points, frame, options, false, {}};
+  Problem<3> problem = {rig, points, frame, options};
   Eigen::Matrix3d hessian;
   Vector3d slope, step;
   for (int k = 0; k <= options.iterations; ++k) {
-    const auto point_of = [&](std::size_t i, Vector3d& p, Eigen::Matrix3d& by) {
-      const Vector3d ray(static_cast<double>(points.x[i]), static_cast<double>(points.y[i]), 1);
-      const double inverse_depth = plane.dot(ray);
-      p = ray / inverse_depth;
-      by = -p * ray.transpose() / inverse_depth;
+    const auto of_eye = [&](RefineEye& eye, const Eigen::Matrix3d& r, const Vector3d& t) {
+      set(eye.h, r);
+      set(eye.arm, t);
+      set(eye.plane, plane);
     };
-    if (!problem.accumulate(point_of, hessian, slope) || !solve<3>(hessian, slope, step)) {
+    if (!problem.accumulate(of_eye, hessian, slope) || !solve<3>(hessian, slope, step)) {
       return out;
     }
     if (k == options.iterations) break;

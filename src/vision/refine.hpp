@@ -12,6 +12,7 @@ namespace gannet::vision {
 
 struct RefineOptions {
   int iterations = 8;
+  int level = 0;                // of the pyramid
   double step_stop = 1e-5;      // metres and radians
   double outside_weight = 0.3;  // of S_out's residuals: the background is only known by its mean
   // Neighbouring samples of a smoothed image share noise: what independent samples would give is
