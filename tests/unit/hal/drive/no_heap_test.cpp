@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include "hal/drive/cia402_drive.hpp"
 #include "hal/drive/dronecan_esc_drive.hpp"
 #include "platform/base/random.hpp"
 #include "tests/support/count_heap.hpp"
+#include "tests/unit/hal/drive/frames.hpp"
 
 namespace gannet::hal {
 namespace {
@@ -46,6 +48,28 @@ TEST(DriveNoHeap, CyclesWithAllMessagesAndForeignFramesTakeNoMemory) {
   }
   EXPECT_EQ(test::heap_calls - before, 0u);
   EXPECT_TRUE(sut->nodes()[7].has_info);
+}
+
+TEST(DriveNoHeap, CyclesOfCia402DrivesThatComeAndGoTakeNoMemory) {
+  if (!test::kCountsHeap) GTEST_SKIP() << "the sanitizer has its own heap";
+  DriveConfig config;
+  config.kind = "cia402";
+  for (int i = 0; i < 8; ++i) config.motors.push_back({.node_id = 0x15 + i});
+  auto sut = std::move(Cia402Drive::create(config)).value();
+  const DriveSetpoint setpoints[8] = {};
+  CanFrame out[64];
+  const std::vector<CanFrame> in =
+      frames_from({"715#00", "595#4300100092010200", "595#8000140100000206", "715#05",
+                   "195#3706000000000000", "195#0802000000000000", "095#1043010000000000"});
+  const std::uint64_t before = test::heap_calls;
+  for (int cycle = 0; cycle < 5000; ++cycle) {
+    const TimePoint now(std::chrono::milliseconds(5 * cycle));
+    for (const CanFrame& frame : in) sut->receive(frame, now);
+    sut->send(setpoints, cycle % 2 == 0, now, out);
+    sut->health(now);
+    if (cycle % 100 == 0) sut->reset_faults(now);
+  }
+  EXPECT_EQ(test::heap_calls - before, 0u);
 }
 
 }  // namespace
