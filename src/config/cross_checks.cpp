@@ -21,6 +21,8 @@ class Checker {
     check_track();
     check_vehicle();
     check_drive();
+    check_estop();
+    check_kernel_times();
   }
 
  private:
@@ -112,6 +114,26 @@ class Checker {
       if (motor.node_id == config_.drive.own_node_id)
         refuse(key + ".node_id", "is drive.own_node_id, the daemon's own");
     }
+  }
+
+  // Antivalent: two channels that are wired alike do not show a short between them.
+  void check_estop() {
+    const GpioConfig& gpio = config_.gpio;
+    if (gpio.estop_second.kind == "none") return;
+    if (gpio.estop.kind == "none")
+      refuse("gpio.estop_second.kind", "a second channel needs a first one, gpio.estop");
+    if (gpio.estop.active_low == gpio.estop_second.active_low)
+      refuse("gpio.estop_second.active_low",
+             "must differ from gpio.estop.active_low: one contact opens, the other one closes");
+  }
+
+  // The kernel stamps by its own clock.
+  void check_kernel_times() {
+    if (config_.clock.kind != "stepped") return;
+    if (config_.can.kind == "socketcan")
+      refuse("can.kind", "\"socketcan\" needs clock.kind \"live\"");
+    if (config_.gpio.estop.kind == "gpiod")
+      refuse("gpio.estop.kind", "\"gpiod\" needs clock.kind \"live\"");
   }
 
   LoadedConfig& loaded_;

@@ -49,8 +49,13 @@ void describe(Visitor& v, ClockConfig& c) {
 
 void describe(Visitor& v, GpioConfig& c) {
   v.group("estop", c.estop, "Input: emergency stop, active when pressed.");
-  v.group("release", c.release, "Output: release of the spear or gripper.");
+  v.group("estop_second", c.estop_second,
+          "Input: the button's other contact, wired to move the other way; active when pressed.");
+  v.group("release", c.release,
+          "Output: release of the spear or gripper; inactive but for a catch.");
   v.group("light", c.light, "Output: off, slow, on or fast says the state to people near by.");
+  v.group("lights", c.lights, "Output: the cameras' lights, active while the daemon runs.");
+  v.group("strobe", c.strobe, "Output: lets a strobe flash, active while the daemon runs.");
 }
 
 void describe(Visitor& v, FramesConfig& c) {

@@ -46,11 +46,20 @@ struct ClockConfig {
   std::string step_socket;  // of a stepped clock
 };
 
+inline hal::LineConfig pulled_up_line() {
+  hal::LineConfig line;
+  line.bias = "pull_up";  // a broken wire shall be a stop
+  return line;
+}
+
 // Digital lines; kind "none" is one that is not fitted.
 struct GpioConfig {
-  hal::LineConfig estop;    // input, active: pressed
-  hal::LineConfig release;  // output of the spear or gripper
-  hal::LineConfig light;    // output: off, slow, on, fast tell the supervisor's state
+  hal::LineConfig estop = pulled_up_line();         // input, active: pressed
+  hal::LineConfig estop_second = pulled_up_line();  // input, the button's other contact
+  hal::LineConfig release;                          // output of the spear or gripper
+  hal::LineConfig light;   // output: off, slow, on, fast tell the supervisor's state
+  hal::LineConfig lights;  // output, active while the daemon runs
+  hal::LineConfig strobe;  // output, active while the daemon runs
 };
 
 // What the archive loop does with frames.

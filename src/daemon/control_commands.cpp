@@ -40,7 +40,8 @@ const char* advice(Cause cause) {
     case Cause::kEstop:
       return "the emergency stop is pressed";
     case Cause::kEstopUnknown:
-      return "the emergency stop line cannot be read";
+      return "the emergency stop line cannot be read, or its two contacts disagreed: then press "
+             "and release it once";
     case Cause::kInternalFault:
       return "an internal fault: restart the daemon and report it";
     case Cause::kDriveFault:
@@ -163,6 +164,8 @@ Json ControlCommands::drives_json() const {
   const ServoReport& servo = reports_->servo();
   Json json;
   json["bus"] = to_string(servo.bus);
+  json["bus_errors"]["transmit"] = servo.can.transmit_errors;
+  json["bus_errors"]["receive"] = servo.can.receive_errors;
   json["all_alive"] = servo.drives.all_alive;
   json["any_fault"] = servo.drives.any_fault;
   json["all_ready"] = servo.drives.all_ready;

@@ -81,6 +81,8 @@ struct ServoReport {
   safety::Memory supervisor;
   safety::Outputs outputs;
   safety::Line estop = safety::Line::kUnknown;
+  std::uint64_t estop_presses = 0;
+  std::uint64_t estop_discrepancies = 0;
   bool by_hand_active = false;
   PredictedPose target;
   servo::ServoError error;

@@ -33,6 +33,32 @@ Result<std::vector<vision::PatchModel>> load_models(const config::DaemonConfig& 
 
 Error at_key(const std::string& key, const Error& error) { return Error{key + ": " + error.text}; }
 
+// on: what the output is from now on.
+Result<void> open_output(const char* key, const hal::LineConfig& config, bool on, TimePoint now,
+                         std::unique_ptr<hal::DigitalOutput>& line) {
+  auto made = hal::make_output(config);
+  if (!made) return at_key(key, made.error());
+  line = std::move(*made);
+  line->write(on, now);
+  return {};
+}
+
+Result<void> open_lines(const config::GpioConfig& config, Devices& devices, TimePoint now) {
+  auto estop = hal::make_input(config.estop);
+  if (!estop) return at_key("gpio.estop", estop.error());
+  devices.estop = std::move(*estop);
+  if (config.estop_second.kind != "none") {
+    auto second = hal::make_input(config.estop_second);
+    if (!second) return at_key("gpio.estop_second", second.error());
+    devices.estop_second = std::move(*second);
+  }
+  auto opened = open_output("gpio.release", config.release, false, now, devices.release);
+  if (opened) opened = open_output("gpio.light", config.light, false, now, devices.light);
+  if (opened) opened = open_output("gpio.lights", config.lights, true, now, devices.lights);
+  if (opened) opened = open_output("gpio.strobe", config.strobe, true, now, devices.strobe);
+  return opened;
+}
+
 }  // namespace
 
 Result<Parts> make_parts(const config::LoadedConfig& loaded) {
@@ -67,12 +93,7 @@ Result<Parts> make_parts(const config::LoadedConfig& loaded) {
 Result<Devices> open_devices(const config::LoadedConfig& loaded, TimePoint now) {
   const config::DaemonConfig& config = loaded.config;
   Devices devices;
-  auto estop = hal::make_input(config.gpio.estop);
-  if (!estop) return at_key("gpio.estop", estop.error());
-  devices.estop = std::move(*estop);
-  auto light = hal::make_output(config.gpio.light);
-  if (!light) return at_key("gpio.light", light.error());
-  devices.light = std::move(*light);
+  if (auto opened = open_lines(config.gpio, devices, now); !opened) return opened.error();
   if (config.vehicle.kind != "none") {
     auto bus = hal::make_can_bus(config.can, hal::wanted_frames(config.drive), now);
     if (!bus) return at_key("can", bus.error());

@@ -33,7 +33,11 @@ struct Devices {
   std::unique_ptr<hal::StereoCamera> camera;  // started
   std::unique_ptr<hal::CanBus> bus;           // null without a vehicle
   std::unique_ptr<hal::DigitalInput> estop;
+  std::unique_ptr<hal::DigitalInput> estop_second;  // null: the e-stop has one channel
   std::unique_ptr<hal::DigitalOutput> light;
+  std::unique_ptr<hal::DigitalOutput> release;  // inactive
+  std::unique_ptr<hal::DigitalOutput> lights;   // active, until destruction
+  std::unique_ptr<hal::DigitalOutput> strobe;   // active, until destruction
 };
 
 // Error: which device, and what is wrong with it.

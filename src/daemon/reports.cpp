@@ -212,6 +212,14 @@ Json Reports::drops_json() const {
   json["can_received"] = servo_->can.received;
   json["can_receive_dropped"] = servo_->can.receive_dropped;
   json["can_malformed"] = servo_->can.malformed + servo_->drives_malformed;
+  json["can_error_frames"] = servo_->can.error_frames;
+  json["can_no_ack"] = servo_->can.no_ack;
+  json["can_bus_off"] = servo_->can.bus_off;
+  json["can_restarts"] = servo_->can.restarts;
+  json["can_links_lost"] = servo_->can.links_lost;
+  json["can_clock_steps"] = servo_->can.clock_steps;
+  json["estop_presses"] = servo_->estop_presses;
+  json["estop_discrepancies"] = servo_->estop_discrepancies;
   return json;
 }
 

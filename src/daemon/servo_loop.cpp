@@ -36,6 +36,14 @@ double largest_sigma(const Matrix12d& covariance) {
   return std::sqrt(std::max(0.0, solver.eigenvalues()(2)));
 }
 
+safety::EstopInput::Channel channel_of(const hal::DigitalInput::Reading& reading) {
+  using safety::Line;
+  const Line line = reading.level == hal::Level::kUnknown ? Line::kUnknown
+                    : reading.level == hal::Level::kHigh  ? Line::kActive
+                                                          : Line::kInactive;
+  return {line, reading.rose, reading.fell};
+}
+
 }  // namespace
 
 ServoLoop::ServoLoop(const Links& links, const StereoRig& rig, const safety::SafetyConfig& safety,
@@ -48,6 +56,7 @@ ServoLoop::ServoLoop(const Links& links, const StereoRig& rig, const safety::Saf
       filter_(filter),
       overrun_watch_(safety.overrun_limit, from_seconds(safety.overrun_window_s)),
       bus_watch_(from_seconds(safety.bus_age_s)),
+      estop_input_(safety),
       goal_(servo::goal_of(params)),
       setpoints_(static_cast<std::size_t>(links.vehicle->motors())),
       out_(links.drives == nullptr ? 0 : static_cast<std::size_t>(links.drives->max_frames())),
@@ -105,14 +114,20 @@ void ServoLoop::receive(TimePoint now) {
       if (n > 0) bus_watch_.feed(now);
     } while (n == static_cast<int>(in_.size()) && ++rounds < 8);
   }
+  read_estop(now);
+}
+
+void ServoLoop::read_estop(TimePoint now) {
   report_.estop = safety::Line::kInactive;  // no line by config
   if (links_.estop == nullptr) return;
-  const hal::DigitalInput::Reading reading = links_.estop->read(now);
-  if (reading.level == hal::Level::kUnknown) {
-    report_.estop = safety::Line::kUnknown;
-  } else if (reading.level == hal::Level::kHigh || reading.rose) {
-    report_.estop = safety::Line::kActive;
-  }
+  const safety::EstopInput::Channel first = channel_of(links_.estop->read(now));
+  report_.estop = links_.estop_second == nullptr
+                      ? estop_input_.step(first, now)
+                      : estop_input_.step(first, channel_of(links_.estop_second->read(now)), now);
+  report_.estop_presses = estop_input_.presses();
+  if (report_.estop_discrepancies == estop_input_.discrepancies()) return;
+  report_.estop_discrepancies = estop_input_.discrepancies();
+  links_.events->raise(make_event(telemetry::kEstopDiscrepancy, now));
 }
 
 // One request a cycle, so that none hides another; hand commands: the newest counts.

@@ -12,6 +12,7 @@
 #include "platform/base/event.hpp"
 #include "src/core/stereo_rig.hpp"
 #include "src/daemon/messages.hpp"
+#include "src/safety/estop_input.hpp"
 #include "src/safety/watchdogs.hpp"
 #include "src/track/pose_filter.hpp"
 #include "src/vehicle/vehicle.hpp"
@@ -34,6 +35,7 @@ class ServoLoop {
     LatestValue<ServoReport>* report;
     EventPort* events;
     SharedFacts* facts;
+    hal::DigitalInput* estop_second = nullptr;  // null: the e-stop has one channel
   };
 
   ServoLoop(const Links& links, const StereoRig& rig, const safety::SafetyConfig& safety,
@@ -48,6 +50,7 @@ class ServoLoop {
  private:
   enum Stage { kReceive, kTargets, kPredict, kSupervise, kLaw, kGate, kSend, kRecord, kCycle };
   void receive(TimePoint now);
+  void read_estop(TimePoint now);
   void receive_commands(TimePoint now);
   void read_targets(TimePoint now);
   void supervise(TimePoint now, std::int64_t missed);
@@ -69,6 +72,7 @@ class ServoLoop {
   track::PoseFilter filter_;
   safety::OverrunWatch overrun_watch_;
   safety::AgeWatch bus_watch_;
+  safety::EstopInput estop_input_;
 
   servo::Goal goal_;
   ServoReport report_;

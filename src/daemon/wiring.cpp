@@ -96,7 +96,7 @@ void Daemon::make_loops() {
       ServoLoop::Links{parts_.vehicle.get(), parts_.law.get(), devices_.bus.get(),
                        parts_.drives.get(), devices_.estop.get(), devices_.light.get(), &to_servo_,
                        &command_lines_.to_servo, &command_lines_.params, &report_lines_.servo,
-                       &report_lines_.servo_events, &facts_},
+                       &report_lines_.servo_events, &facts_, devices_.estop_second.get()},
       loaded_.rig, config.safety, config.filter, config.servo.params, period_);
 }
 

@@ -26,6 +26,8 @@ constexpr EventWords kTable[] = {
     {kDrivesGood, Severity::kNotice, "drives_good", "all motors are heard and without fault"},
     {kDriveRefused, Severity::kError, "drive_refused",
      "motor {0} refused its set-up (object {1:hex}); see gannet status"},
+    {kEstopDiscrepancy, Severity::kError, "estop_discrepancy",
+     "the e-stop's two contacts disagree: one of them or its wire is broken"},
     {kOverrun, Severity::kWarning, "overrun", "servo periods missed: {0}, {1} in all"},
     {kInternalFault, Severity::kCritical, "internal_fault", "internal fault at step {0}"},
     {kArchiveFailed, Severity::kError, "archive_failed", "frame {0} could not be recorded"},

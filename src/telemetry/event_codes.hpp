@@ -29,6 +29,7 @@ inline constexpr EventCode kDriveSilent{41};
 inline constexpr EventCode kDriveFault{42};
 inline constexpr EventCode kDrivesGood{43};
 inline constexpr EventCode kDriveRefused{44};
+inline constexpr EventCode kEstopDiscrepancy{46};
 inline constexpr EventCode kOverrun{50};
 inline constexpr EventCode kInternalFault{51};
 inline constexpr EventCode kArchiveFailed{60};

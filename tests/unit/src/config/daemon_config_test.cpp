@@ -158,6 +158,31 @@ TEST_F(DaemonConfigTest, groups_that_do_not_fit_each_other_are_told) {
             "gannet.toml:20: drive.motor[2].node_id: is drive.own_node_id, the daemon's own");
 }
 
+TEST_F(DaemonConfigTest, a_second_estop_channel_must_move_the_other_way) {
+  write("rig.toml", kRig);
+  write("gannet.toml", "rig = \"rig.toml\"\n[gpio.estop]\nkind = \"gpiod\"\nline = \"17\"\n");
+  EXPECT_EQ(problems({"gpio.estop_second.kind=gpiod", "gpio.estop_second.line=E2"}),
+            "--set gpio.estop_second.line=E2: gpio.estop_second.active_low: must differ from "
+            "gpio.estop.active_low: one contact opens, the other one closes");
+  EXPECT_EQ(problems({"gpio.estop_second.kind=gpiod", "gpio.estop_second.line=E2",
+                      "gpio.estop_second.active_low=true"}),
+            "none");
+  EXPECT_NE(problems({"gpio.estop.kind=none", "gpio.estop_second.kind=gpiod",
+                      "gpio.estop_second.active_low=true"})
+                .find("needs a first one"),
+            std::string::npos);
+}
+
+TEST_F(DaemonConfigTest, kinds_that_the_kernel_stamps_need_the_live_clock) {
+  write("rig.toml", kRig);
+  write("gannet.toml",
+        "rig = \"rig.toml\"\n[clock]\nkind = \"stepped\"\nstep_socket = \"step\"\n"
+        "[can]\nkind = \"socketcan\"\n[gpio.estop]\nkind = \"gpiod\"\nline = \"ESTOP\"\n");
+  EXPECT_EQ(problems(),
+            "gannet.toml:6: can.kind: \"socketcan\" needs clock.kind \"live\"\n"
+            "gannet.toml:8: gpio.estop.kind: \"gpiod\" needs clock.kind \"live\"");
+}
+
 TEST(DaemonConfig, the_default_file_loads_back_to_the_built_in_values) {
   const std::string text = print_default();
   const auto tree = parse_toml(text, "default.toml");

@@ -49,12 +49,12 @@ class ServoLoopTest : public testing::Test {
     law_ = std::move(*servo::create_servo_law({}, rig()));
     make(vehicle_.get());
   }
-  void make(vehicle::Vehicle* vehicle) {
+  void make(vehicle::Vehicle* vehicle, hal::DigitalInput* estop_second = nullptr) {
     const bool has_motors = vehicle->motors() > 0;
     sut_ = std::make_unique<ServoLoop>(
         ServoLoop::Links{vehicle, law_.get(), has_motors ? &bus_ : nullptr,
                          has_motors ? &drives_ : nullptr, &estop_, &light_, &targets_, &commands_,
-                         &params_, &report_, &events_, &facts_},
+                         &params_, &report_, &events_, &facts_, estop_second},
         rig(), safety::SafetyConfig{}, track::FilterConfig{}, servo::ServoParams{}, kPeriod);
   }
   const ServoReport& step(int cycles = 1) {
@@ -162,6 +162,52 @@ TEST_F(ServoLoopTest, a_line_that_cannot_be_read_is_a_stop) {
   estop_.says = {.level = hal::Level::kUnknown};
   step();
   EXPECT_EQ(report_.read().supervisor.cause, Cause::kEstopUnknown);
+  EXPECT_FALSE(drives_.enabled);
+}
+
+TEST_F(ServoLoopTest, a_release_that_bounces_is_not_yet_one) {
+  step(2);
+  estop_.says = {.level = hal::Level::kHigh};
+  step();
+  estop_.says = {.level = hal::Level::kLow};
+  step(5);  // 25 of 50 ms
+  ask(Request::kReset);
+  EXPECT_EQ(state(), State::kStopped);
+  EXPECT_EQ(report_.read().refused, Cause::kEstop);
+  step(10);
+  ask(Request::kReset);
+  EXPECT_EQ(state(), State::kStandby);
+  EXPECT_EQ(report_.read().estop_presses, 1u);
+}
+
+TEST_F(ServoLoopTest, the_second_contact_stops_too_and_a_broken_one_is_told) {
+  test::FakeInput second;
+  make(vehicle_.get(), &second);
+  start_servoing();
+  second.says = {.level = hal::Level::kHigh};
+  step();
+  EXPECT_EQ(state(), State::kStopped);
+  EXPECT_FALSE(drives_.enabled);
+  step(30);
+  EXPECT_EQ(report_.read().estop_discrepancies, 1u);
+  bool is_told = false;
+  for (Event event; events_.take(event);) is_told |= event.code == telemetry::kEstopDiscrepancy;
+  EXPECT_TRUE(is_told);
+  second.says = {.level = hal::Level::kLow};
+  step(30);
+  ask(Request::kReset);
+  EXPECT_EQ(report_.read().refused, Cause::kEstopUnknown);
+  EXPECT_EQ(state(), State::kStopped);
+}
+
+TEST_F(ServoLoopTest, nothing_moves_on_a_bus_that_is_off) {
+  start_servoing();
+  bus_.says = hal::BusState::kPassive;
+  step(5);
+  EXPECT_TRUE(drives_.enabled) << "a passive controller still sends";
+  bus_.says = hal::BusState::kOff;
+  step();
+  EXPECT_EQ(report_.read().supervisor.cause, Cause::kBusDown);
   EXPECT_FALSE(drives_.enabled);
 }
 
