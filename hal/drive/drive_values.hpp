@@ -9,8 +9,9 @@ namespace gannet::hal {
 
 enum class DriveState : std::uint8_t { kUnknown, kDisabled, kEnabled, kFault };
 
-// One motor's wish. The unit of value is the drive's, fixed by its kind and said in its config:
-// thrust fraction −1 … 1 for an ESC, rad/s for a velocity drive.
+// One motor's wish: value is the fraction −1 … 1 of the motor's full scale, by the vehicle's sign,
+// whatever the protocol. What full scale is, the config says: full throttle for an ESC, and
+// drive.motor.full_speed_rad_s for a drive that is commanded a speed.
 struct DriveSetpoint {
   double value = 0;
 };

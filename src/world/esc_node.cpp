@@ -14,6 +14,7 @@ constexpr std::uint8_t kStatusPriority = 16;
 constexpr Duration kHeartbeatPeriod = std::chrono::seconds(1);
 constexpr Duration kPhaseStep = std::chrono::milliseconds(3);
 constexpr std::uint16_t kFaultCode = 1;
+constexpr int kListenerId = 127;  // speaks to nobody; requests to it do not exist
 constexpr double kRpmPerRadPerS = 60 / (2 * std::numbers::pi);
 
 std::uint8_t counted(std::uint8_t& transfer_id) {
@@ -39,7 +40,8 @@ EscNodes::EscNodes(const hal::DriveConfig& drives, const EscBehaviour& behaviour
       reports_(drives.motors.size()),
       asked_(drives.motors.size()),
       commanded_(drives.motors.size()),
-      random_(seed) {
+      random_(seed),
+      ear_({subscription_to<ArmingStatus>()}, kListenerId, 4) {
   for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
     const auto id = static_cast<std::uint8_t>(motors_[motor].node_id);
     auto node = std::find_if(nodes_.begin(), nodes_.end(), [&](auto& n) { return n.id == id; });
@@ -55,6 +57,7 @@ EscNodes::EscNodes(const hal::DriveConfig& drives, const EscBehaviour& behaviour
 std::span<const double> EscNodes::step(TimePoint now, std::span<const hal::CanFrame> in,
                                        std::vector<hal::CanFrame>& out) {
   if (!has_begun_) begin(now);
+  for (const hal::CanFrame& frame : in) listen_for_arming(frame, now);
   for (Node& node : nodes_) {
     if (node.faults.faulty && !node.was_faulty) ++node.error_count;
     node.was_faulty = node.faults.faulty;
@@ -62,7 +65,7 @@ std::span<const double> EscNodes::step(TimePoint now, std::span<const hal::CanFr
       for (const hal::CanFrame& frame : in) hear(node, frame, now);
       speak(node, now);
     }
-    deliver(node, now, out);
+    node.mouth.deliver(node.faults, now, out);
     for (std::size_t motor : node.motors) commanded_[motor] = turns(node, now) ? asked_[motor] : 0;
   }
   return commanded_;
@@ -80,6 +83,14 @@ bool EscNodes::turns(const Node& node, TimePoint now) const {
 }
 
 // ---- in -----------------------------------------------------------------------------------------
+
+void EscNodes::listen_for_arming(const hal::CanFrame& frame, TimePoint now) {
+  const auto transfer = ear_.receive(frame, now);
+  ArmingStatus status;
+  if (transfer && decode(transfer->payload, status)) {
+    armed_ = status.status == ArmingStatus::kArmed;
+  }
+}
 
 void EscNodes::hear(Node& node, const hal::CanFrame& frame, TimePoint now) {
   const auto transfer = node.receiver.receive(frame, now);
@@ -136,7 +147,7 @@ NodeStatus EscNodes::status_of(const Node& node, TimePoint now) const {
 
 void EscNodes::say_status(Node& node, std::size_t motor, TimePoint now) {
   const hal::MotorConfig& config = motors_[motor];
-  const EscReport& report = reports_[motor];
+  const MotorReport& report = reports_[motor];
   const double sign = config.reversed ? -1 : 1;
   const EscStatus status = {
       .error_count = node.error_count,
@@ -176,20 +187,8 @@ void EscNodes::say(Node& node, const Message& message, const TransferHeader& hea
                    TimePoint now) {
   hal::CanFrame frames[frames_of(kMaxPayload)];
   const int count = to_frames(message, header, frames);
-  for (hal::CanFrame& frame : std::span(frames).first(static_cast<std::size_t>(count))) {
-    if (node.faults.garbage > 0 && random_.uniform() < node.faults.garbage) {
-      for (std::uint8_t& byte : frame.data) byte = static_cast<std::uint8_t>(random_.next());
-    }
-    node.waiting.push_back({now + node.faults.late, frame});
-  }
-}
-
-// In the order they were said, also when the delay has just become shorter.
-void EscNodes::deliver(Node& node, TimePoint now, std::vector<hal::CanFrame>& out) {
-  if (node.faults.silent) node.waiting.clear();
-  while (!node.waiting.empty() && node.waiting.front().due <= now) {
-    out.push_back(node.waiting.front().frame);
-    node.waiting.pop_front();
+  for (const hal::CanFrame& frame : std::span(frames).first(static_cast<std::size_t>(count))) {
+    node.mouth.say(frame, node.faults, random_, now);
   }
 }
 

@@ -5,15 +5,13 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "hal/drive/drive_config.hpp"
 #include "hal/drive/dronecan_messages.hpp"
 #include "hal/drive/esc_range.hpp"
-#include "platform/base/random.hpp"
+#include "src/world/motor_nodes.hpp"
 
 namespace gannet::world {
 
@@ -23,58 +21,37 @@ struct EscBehaviour {
   bool needs_arming = false;  // turns nothing before ArmingStatus says armed
 };
 
-// What the plant makes of a motor, by the vehicle's sign.
-struct EscReport {
-  double speed_rad_s = 0;
-  double current_a = 0;
-  double voltage_v = 0;
-  double temperature_k = 293;
-};
-
-struct EscFaults {
-  bool silent = false;  // off the bus: it neither speaks nor hears
-  bool faulty = false;  // says that its health is critical, and stands still
-  Duration late = {};   // what it says arrives so much later
-  double garbage = 0;   // this share of its frames has random bytes
-};
-
-class EscNodes {
+class EscNodes final : public MotorNodes {
  public:
   // Motors with the same node id share a node, as PWM ESCs do.
   EscNodes(const hal::DriveConfig& drives, const EscBehaviour& behaviour, std::uint64_t seed);
 
-  int motors() const { return static_cast<int>(motors_.size()); }
-  void report(int motor, const EscReport& report) { reports_[at(motor)] = report; }
-  // Of the node that this motor hangs on.
-  EscFaults& faults(int motor) { return nodes_[node_of_[at(motor)]].faults; }
-
-  // Takes the frames that came, adds to out what the nodes send now. Returns the commanded thrust
-  // fraction −1 … 1 of each motor, by the vehicle's sign; valid until the next call.
+  int motors() const override { return static_cast<int>(motors_.size()); }
+  void report(int motor, const MotorReport& report) override { reports_[at(motor)] = report; }
+  MotorFaults& faults(int motor) override { return nodes_[node_of_[at(motor)]].faults; }
+  bool armed() const override { return armed_; }  // as ArmingStatus said last
   std::span<const double> step(TimePoint now, std::span<const hal::CanFrame> in,
-                               std::vector<hal::CanFrame>& out);
+                               std::vector<hal::CanFrame>& out) override;
 
  private:
-  struct Waiting {
-    TimePoint due;
-    hal::CanFrame frame;
-  };
   struct Node {
     Node(std::uint8_t id, Duration phase);
     std::uint8_t id;
     Duration phase;  // nodes do not all speak at once
     hal::dronecan::TransferReceiver receiver;
     std::vector<std::size_t> motors;
-    EscFaults faults;
+    MotorFaults faults;
     bool was_faulty = false;
     std::uint32_t error_count = 0;
     bool is_commanded = false, is_armed = false;
     TimePoint command_time = {}, next_heartbeat = {}, next_status = {};
     std::uint8_t heartbeat_id = 0, status_id = 0;
-    std::deque<Waiting> waiting;
+    NodeMouth mouth;
   };
   static std::size_t at(int motor) { return static_cast<std::size_t>(motor); }
 
   void begin(TimePoint now);
+  void listen_for_arming(const hal::CanFrame& frame, TimePoint now);
   void hear(Node& node, const hal::CanFrame& frame, TimePoint now);
   void obey(Node& node, const hal::dronecan::RawCommand& command, TimePoint now);
   void speak(Node& node, TimePoint now);
@@ -84,7 +61,6 @@ class EscNodes {
   template <class Message>
   void say(Node& node, const Message& message, const hal::dronecan::TransferHeader& header,
            TimePoint now);
-  void deliver(Node& node, TimePoint now, std::vector<hal::CanFrame>& out);
   bool turns(const Node& node, TimePoint now) const;
 
   std::vector<hal::MotorConfig> motors_;
@@ -92,10 +68,12 @@ class EscNodes {
   EscBehaviour behaviour_;
   std::vector<Node> nodes_;
   std::vector<std::size_t> node_of_;  // by motor
-  std::vector<EscReport> reports_;
+  std::vector<MotorReport> reports_;
   std::vector<double> asked_;      // the newest command's fractions
   std::vector<double> commanded_;  // what is turned
   Random random_;
+  hal::dronecan::TransferReceiver ear_;  // hears also what silent nodes don't
+  bool armed_ = false;
   bool has_begun_ = false;
   TimePoint start_ = {};
 };

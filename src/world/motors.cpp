@@ -2,16 +2,11 @@
 
 #include <cstddef>
 
-#include "hal/drive/dronecan_messages.hpp"
-
 namespace gannet::world {
 namespace {
 
-using hal::dronecan::ArmingStatus;
-
 constexpr double kBattery_v = 16;
 constexpr double kBatteryResistance_ohm = 0.01;
-constexpr int kListenerId = 127;  // speaks to nobody; requests to it do not exist
 
 }  // namespace
 
@@ -20,16 +15,17 @@ Result<std::unique_ptr<Motors>> Motors::create(const std::string& bus,
                                                std::uint64_t seed) {
   auto hub = hal::LocalCanHub::listen(bus);
   if (!hub) return hub.error();
-  return std::unique_ptr<Motors>(new Motors(std::move(*hub), drives, delay, seed));
+  auto nodes = make_motor_nodes(drives, seed);
+  if (!nodes) return nodes.error();
+  return std::unique_ptr<Motors>(new Motors(std::move(*hub), std::move(*nodes), delay));
 }
 
-Motors::Motors(std::unique_ptr<hal::LocalCanHub> hub, const hal::DriveConfig& drives,
-               Duration delay, std::uint64_t seed)
+Motors::Motors(std::unique_ptr<hal::LocalCanHub> hub, std::unique_ptr<MotorNodes> nodes,
+               Duration delay)
     : hub_(std::move(hub)),
-      nodes_(drives, {}, seed),
+      nodes_(std::move(nodes)),
       delay_(delay),
-      ear_({hal::dronecan::subscription_to<ArmingStatus>()}, kListenerId, 4),
-      throttles_(drives.motors.size(), 0.0) {}
+      throttles_(static_cast<std::size_t>(nodes_->motors()), 0.0) {}
 
 void Motors::step(TimePoint now, RovPlant& plant) {
   receive(now);
@@ -38,10 +34,9 @@ void Motors::step(TimePoint now, RovPlant& plant) {
     heard_.push_back(delayed_.front().frame);
     delayed_.pop_front();
   }
-  for (const hal::CanFrame& frame : heard_) listen_for_arming(frame, now);
   report(plant);
   said_.clear();
-  const std::span<const double> throttles = nodes_.step(now, heard_, said_);
+  const std::span<const double> throttles = nodes_->step(now, heard_, said_);
   throttles_.assign(throttles.begin(), throttles.end());
   plant.command(throttles_);
   hub_->send(said_, now);
@@ -57,21 +52,14 @@ void Motors::receive(TimePoint now) {
   }
 }
 
-void Motors::listen_for_arming(const hal::CanFrame& frame, TimePoint now) {
-  const auto transfer = ear_.receive(frame, now);
-  ArmingStatus status;
-  if (transfer && hal::dronecan::decode(transfer->payload, status))
-    armed_ = status.status == ArmingStatus::kArmed;
-}
-
 void Motors::report(const RovPlant& plant) {
   double current = 0;
   for (const Thruster& thruster : plant.thrusters()) current += thruster.current_a();
-  for (int i = 0; i < nodes_.motors(); ++i) {
+  for (int i = 0; i < nodes_->motors(); ++i) {
     const Thruster& thruster = plant.thrusters()[static_cast<std::size_t>(i)];
-    nodes_.report(i, {.speed_rad_s = thruster.speed_rad_s(),
-                      .current_a = thruster.current_a(),
-                      .voltage_v = kBattery_v - kBatteryResistance_ohm * current});
+    nodes_->report(i, {.speed_rad_s = thruster.speed_rad_s(),
+                       .current_a = thruster.current_a(),
+                       .voltage_v = kBattery_v - kBatteryResistance_ohm * current});
   }
 }
 

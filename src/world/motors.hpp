@@ -1,5 +1,5 @@
-// Motors: what hangs on the simulated bus: the hub that the daemon connects to, the ESC nodes of
-// the vehicle behind a delay, and an ear for what the bus says of arming. World's thread alone.
+// Motors: what hangs on the simulated bus: the hub that the daemon connects to, the motor nodes
+// of the vehicle behind a delay. World's thread alone.
 #pragma once
 
 #include <array>
@@ -12,15 +12,15 @@
 
 #include "hal/can/local_bus.hpp"
 #include "hal/drive/drive_config.hpp"
-#include "hal/drive/dronecan_transfer.hpp"
-#include "src/world/esc_node.hpp"
+#include "src/world/motor_nodes.hpp"
 #include "src/world/rov_plant.hpp"
 
 namespace gannet::world {
 
 class Motors {
  public:
-  // delay: from a frame on the bus to the node that hears it. Error: the bus's name is in use.
+  // delay: from a frame on the bus to the node that hears it. Error: the bus's name is in use, or
+  // nothing here speaks drive.kind.
   static Result<std::unique_ptr<Motors>> create(const std::string& bus,
                                                 const hal::DriveConfig& drives, Duration delay,
                                                 std::uint64_t seed);
@@ -31,10 +31,10 @@ class Motors {
 
   // Throttles −1 … 1 as the nodes obey them, by the vehicle's sign.
   std::span<const double> throttles() const { return throttles_; }
-  bool armed() const { return armed_; }  // as the bus said last
+  bool armed() const { return nodes_->armed(); }
   bool connected() const { return hub_->nodes() > 0; }
-  EscFaults& faults(int motor) { return nodes_.faults(motor); }
-  int count() const { return nodes_.motors(); }
+  MotorFaults& faults(int motor) { return nodes_->faults(motor); }
+  int count() const { return nodes_->motors(); }
   std::uint64_t frames_heard() const { return hub_->counters().received; }
 
  private:
@@ -42,20 +42,16 @@ class Motors {
     TimePoint due;
     hal::CanFrame frame;
   };
-  Motors(std::unique_ptr<hal::LocalCanHub> hub, const hal::DriveConfig& drives, Duration delay,
-         std::uint64_t seed);
+  Motors(std::unique_ptr<hal::LocalCanHub> hub, std::unique_ptr<MotorNodes> nodes, Duration delay);
   void receive(TimePoint now);
-  void listen_for_arming(const hal::CanFrame& frame, TimePoint now);
   void report(const RovPlant& plant);
 
   std::unique_ptr<hal::LocalCanHub> hub_;
-  EscNodes nodes_;
+  std::unique_ptr<MotorNodes> nodes_;
   const Duration delay_;
-  hal::dronecan::TransferReceiver ear_;
   std::deque<Delayed> delayed_;
   std::vector<hal::CanFrame> heard_, said_;  // of one step
   std::vector<double> throttles_;
-  bool armed_ = false;
 };
 
 }  // namespace gannet::world

@@ -293,13 +293,13 @@ void Simulation::act(const Action& action, TimePoint now) {
     case Verb::kUncover:
       return stage_->cover(stage_->find(action.name), false);
     case Verb::kSilenceDrive:
-      return faults([](EscFaults& node, Thruster&) { node.silent = true; });
+      return faults([](MotorFaults& node, Thruster&) { node.silent = true; });
     case Verb::kFaultDrive:
-      return faults([](EscFaults& node, Thruster&) { node.faulty = true; });
+      return faults([](MotorFaults& node, Thruster&) { node.faulty = true; });
     case Verb::kJamDrive:
-      return faults([](EscFaults&, Thruster& thruster) { thruster.jam(true); });
+      return faults([](MotorFaults&, Thruster& thruster) { thruster.jam(true); });
     case Verb::kMendDrive:
-      return faults([](EscFaults& node, Thruster& thruster) {
+      return faults([](MotorFaults& node, Thruster& thruster) {
         node = {};
         thruster.jam(false);
       });
