@@ -2,6 +2,8 @@
 
 #include "hal/camera/replay_camera.hpp"
 #include "hal/camera/simulated_camera.hpp"
+#include "hal/camera/v4l2_pair.hpp"
+#include "hal/camera/v4l2_side_by_side.hpp"
 
 namespace gannet::hal {
 namespace {
@@ -18,6 +20,12 @@ constexpr Kind kKinds[] = {
                   Pace pace) { return ReplayCamera::create(config.replay, decode, pace); }},
     {"simulated", [](const CameraConfig& config, DecodeImage,
                      Pace pace) { return SimulatedCamera::create(config.simulated, pace); }},
+    {"v4l2_pair", [](const CameraConfig& config, DecodeImage decode,
+                     Pace pace) { return make_v4l2_pair(config.v4l2_pair, decode, pace); }},
+    {"v4l2_side_by_side",
+     [](const CameraConfig& config, DecodeImage decode, Pace pace) {
+       return make_v4l2_side_by_side(config.v4l2_side_by_side, decode, pace);
+     }},
 };
 
 }  // namespace

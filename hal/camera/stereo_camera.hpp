@@ -28,6 +28,19 @@ struct CaptureCounters {
   std::uint64_t dropped = 0;
   std::uint64_t broken = 0;
   std::uint64_t lost = 0;
+
+  // Of cameras that see each image's story (V4L2), by image. All but missed are in broken too.
+  std::uint64_t error_flagged = 0;  // the driver says that the pixels are damaged
+  std::uint64_t short_frames = 0;   // fewer bytes than the format has
+  std::uint64_t frozen = 0;         // the time stamp stands still
+  std::uint64_t backward = 0;       // the time stamp goes back
+  std::uint64_t off_clock = 0;      // the time stamp is not of the agreed clock, or far from it
+  std::uint64_t unpaired = 0;       // no twin within the tolerance
+  std::uint64_t undecoded = 0;      // broken when decompressed
+  std::uint64_t decoded_late = 0;   // the decoder was busy or too slow
+  std::uint64_t missed = 0;         // never given by the driver: gaps in its numbers
+  double skew_s = 0;                // right stamp − left stamp, newest measured, paired or not
+  double skew_max_s = 0;            // the largest so far, without sign
 };
 
 class StereoCamera {
