@@ -219,7 +219,8 @@ TEST_F(GannetdTest, a_second_daemon_is_refused_and_the_first_one_goes_on) {
 
 TEST_F(GannetdTest, a_second_daemon_with_a_socket_of_its_own_is_refused_the_same_bus) {
   std::ofstream(folder_ / "rig.toml", std::ios::app)
-      << "[body_from_hand]\nrotation = [0, 0, 1, -1, 0, 0, 0, -1, 0]\n";
+      << "[body_from_hand]\nrotation = [0, 0, 1, -1, 0, 0, 0, -1, 0]\n"
+      << "translation_m = [0.2, 0, 0]\n";
   std::string motors;
   for (int i = 0; i < 6; ++i) {
     motors += "[[drive.motor]]\nindex = " + std::to_string(i) +
