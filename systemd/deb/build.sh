@@ -6,7 +6,7 @@
 set -eu -o pipefail
 umask 022
 export LC_ALL=C.UTF-8 TZ=UTC
-arch=$1 stage=$2 out=$3 admindir=${4:-}
+arch=$1 stage=$(realpath "$2") out=$3 admindir=${4:-}
 shift $(($# < 4 ? $# : 4))
 libdirs=("$@")
 here=$(dirname "$0")
