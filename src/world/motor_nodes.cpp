@@ -1,5 +1,6 @@
 #include "src/world/motor_nodes.hpp"
 
+#include "src/world/cia402_nodes.hpp"
 #include "src/world/esc_node.hpp"
 
 namespace gannet::world {
@@ -11,12 +12,17 @@ Made make_escs(const hal::DriveConfig& drives, std::uint64_t seed) {
   return std::make_unique<EscNodes>(drives, EscBehaviour{}, seed);
 }
 
+Made make_cia402(const hal::DriveConfig& drives, std::uint64_t seed) {
+  return std::make_unique<Cia402Nodes>(drives, seed);
+}
+
 struct Kind {
   const char* name;
   Made (*make)(const hal::DriveConfig&, std::uint64_t);
 };
 constexpr Kind kKinds[] = {
     {"dronecan_esc", make_escs},
+    {"cia402", make_cia402},
 };
 
 }  // namespace

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <deque>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -61,6 +64,7 @@ class Loop {
       EXPECT_LE(n, drive_->max_frames());
       for (int i = 0; i < n; ++i) {
         log_ += hal::to_text(out[i]) + "\n";
+        note(out[i]);
         if (random_.uniform() < loss) continue;
         for (std::size_t k = 0; k < nodes_.size(); ++k) {
           if (!is_silent(k)) nodes_[k].hear(out[i], now_);
@@ -73,6 +77,7 @@ class Loop {
       node.step(now_);
       for (const hal::CanFrame& frame : node.take_said()) {
         log_ += "  " + hal::to_text(frame) + "\n";
+        note(frame);
         if (random_.uniform() < loss || is_silent(k)) continue;
         to_drive_.emplace_back(now_ + late, frame);
       }
@@ -107,6 +112,7 @@ class Loop {
   const hal::cia402::Cia402Axis& axis(std::size_t i = 0) { return drive_->axes()[i]; }
   const hal::DriveGroupHealth& health() const { return health_; }
   const std::string& log() const { return log_; }
+  const std::string& candump() const { return candump_; }
   TimePoint now() const { return now_; }
   void set(double value, std::size_t i = 0) { setpoints_[i].value = value; }
   void silence(std::size_t i, bool silent) {
@@ -121,6 +127,9 @@ class Loop {
   Duration late = {};
 
  private:
+  void note(const hal::CanFrame& frame) {
+    candump_ += hal::to_text(hal::CanLogLine{to_ns(now_) / 1000, "can0", frame}) + "\n";
+  }
   bool is_silent(std::size_t i) const { return i < silent_.size() && silent_[i]; }
 
   DriveConfig config_;
@@ -132,7 +141,7 @@ class Loop {
   hal::DriveGroupHealth health_ = {.all_ready = false};
   Random random_{11};
   TimePoint now_ = time_from_ns(1'000'000'000);
-  std::string log_;
+  std::string log_, candump_;
 };
 
 TEST(Cia402Loop, SetsEveryDriveUpAndFindsThatItGuardsItself) {
@@ -572,6 +581,36 @@ TEST(Cia402Loop, SaysTheSameBitForBitTwice) {
   }
   EXPECT_EQ(logs[0], logs[1]);
   EXPECT_GT(logs[0].size(), 10000u);
+}
+
+// A whole session as `candump -L` would have it: set-up, enable, run, a fault and its reset, quick
+// stop, the master's death. Kept in tests/golden, where foreign programs read it
+// (tests/golden/cia402_tshark.sh). GANNET_WRITE_GOLDEN=1 writes it anew.
+TEST(Cia402Loop, SaysWhatTheKeptSessionSays) {
+  Loop sut(config_of(1));
+  sut.run(0.6);
+  sut.enable = true;
+  sut.run(0.05);
+  sut.set(0.5);
+  sut.run(0.05);
+  sut.node().set_fault(0x4310);
+  sut.run(0.02);
+  sut.enable = false;
+  sut.node().set_fault(0);
+  sut.run(0.02);
+  sut.drive().reset_faults(sut.now());
+  sut.run(0.03);
+  sut.enable = true;
+  sut.run(0.05);
+  sut.enable = false;
+  sut.run(0.03);
+  sut.is_master_alive = false;
+  sut.run(0.25);
+  const char* path = "tests/golden/cia402_session.log";
+  if (std::getenv("GANNET_WRITE_GOLDEN") != nullptr) std::ofstream(path) << sut.candump();
+  std::ifstream file(path);
+  const std::string kept((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  EXPECT_EQ(sut.candump(), kept);
 }
 
 }  // namespace
