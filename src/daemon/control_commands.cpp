@@ -155,6 +155,7 @@ Json ControlCommands::state_json() const {
   json["estop"] = servo.estop == safety::Line::kInactive ? "inactive"
                   : servo.estop == safety::Line::kActive ? "active"
                                                          : "unknown";
+  json["estop_presses"] = servo.estop_presses;
   json["obstacle"] = safety::to_string(servo.outputs.obstacle);
   json["light"] = safety::to_string(servo.outputs.light);
   return json;
@@ -211,6 +212,7 @@ Answer ControlCommands::top(const Json&) {
   json["loops"] = reports_->loops_json();
   json["latencies"] = reports_->histograms_json();
   json["drops"] = reports_->drops_json();
+  json["cameras"] = reports_->cameras_json();
   json["ages_ms"]["capture"] = age(reports_->capture().loop.time);
   json["ages_ms"]["vision"] = age(reports_->vision().loop.time);
   json["ages_ms"]["servo"] = age(reports_->servo().loop.time);

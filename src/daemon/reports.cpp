@@ -218,8 +218,24 @@ Json Reports::drops_json() const {
   json["can_restarts"] = servo_->can.restarts;
   json["can_links_lost"] = servo_->can.links_lost;
   json["can_clock_steps"] = servo_->can.clock_steps;
-  json["estop_presses"] = servo_->estop_presses;
   json["estop_discrepancies"] = servo_->estop_discrepancies;
+  return json;
+}
+
+Json Reports::cameras_json() const {
+  const hal::CaptureCounters& camera = capture_->camera;
+  Json json;
+  json["error_flagged"] = camera.error_flagged;
+  json["short"] = camera.short_frames;
+  json["frozen"] = camera.frozen;
+  json["backward"] = camera.backward;
+  json["off_clock"] = camera.off_clock;
+  json["unpaired"] = camera.unpaired;
+  json["undecoded"] = camera.undecoded;
+  json["decoded_late"] = camera.decoded_late;
+  json["missed"] = camera.missed;
+  json["skew_ms"] = camera.skew_s * 1e3;
+  json["skew_max_ms"] = camera.skew_max_s * 1e3;
   return json;
 }
 
