@@ -20,5 +20,6 @@ void bench_handover(const Options& options, Results& results);
 void bench_frame(const Options& options, Results& results);
 void bench_acquisition(const Options& options, Results& results);
 void bench_render(const Options& options, Results& results);
+void bench_jitter(const Options& options, Results& results);
 
 }  // namespace gannet::bench

@@ -10,7 +10,7 @@ namespace {
 constexpr const char* kHelp =
     "run [--quick] [--only GROUP] [--json FILE] [--flags TEXT] [--commit TEXT]\n"
     "  --quick   small pictures, few turns: does it run? The figures mean nothing.\n"
-    "  --only    kernels | fitness | handover | frame | acquisition | render\n"
+    "  --only    kernels | fitness | handover | frame | acquisition | render | jitter\n"
     "  --json    writes the results to this file, too\n"
     "  --flags, --commit   how this was built, kept with the results\n";
 
@@ -18,10 +18,13 @@ struct Group {
   const char* name;
   void (*run)(const gannet::bench::Options&, gannet::bench::Results&);
 };
-constexpr Group kGroups[] = {
-    {"kernels", gannet::bench::bench_kernels},         {"fitness", gannet::bench::bench_fitness},
-    {"handover", gannet::bench::bench_handover},       {"frame", gannet::bench::bench_frame},
-    {"acquisition", gannet::bench::bench_acquisition}, {"render", gannet::bench::bench_render}};
+constexpr Group kGroups[] = {{"kernels", gannet::bench::bench_kernels},
+                             {"fitness", gannet::bench::bench_fitness},
+                             {"handover", gannet::bench::bench_handover},
+                             {"frame", gannet::bench::bench_frame},
+                             {"acquisition", gannet::bench::bench_acquisition},
+                             {"render", gannet::bench::bench_render},
+                             {"jitter", gannet::bench::bench_jitter}};
 
 }  // namespace
 

@@ -6,9 +6,9 @@ $(BENCH): $(patsubst %.cpp,$B/obj/%.o,$(wildcard tests/bench/*.cpp)) $(call libr
 tests: $(BENCH)
 
 bench:
-	@$(call need,$(PACKAGES_BUILD))
-	@$(MAKE) --no-print-directory $(BENCH)
+	@$(call need,$(PACKAGES_BUILD) rt-tests)
+	@$(MAKE) --no-print-directory $(BENCH) all assets
 	@mkdir -p build/bench
-	@$(BENCH) --json build/bench/results.json --flags "$$(cat $B/flags)" \
+	@GANNET_BUILD=$B $(BENCH) --json build/bench/results.json --flags "$$(cat $B/flags)" \
 	  --commit "$$(git describe --always --dirty 2>/dev/null)"
 .PHONY: bench
