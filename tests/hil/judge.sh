@@ -1,27 +1,55 @@
 # What judge() of a scenario may use, on the host, in the folder of its results. Sourced by run.
+# Times are the guest's, in seconds; from one to another in milliseconds.
 
 judge_scenario() (  # NAME RESULTS
   cd "$2"
   rm -f checks
   . "$here/scenarios/$1.sh"
-  check "the play ended in order" "$(cat rc)" = 0
+  check "the play ended in order, code" "$(cat rc)" = 0
   judge
   ! grep -q '^FAILED' checks
 )
 
-# check TEXT VALUE COMPARISON LIMIT [UNIT]: one line of the table. Comparison: = != < <= > >= (numbers)
+# check TEXT VALUE COMPARISON LIMIT [UNIT]: one line of the table. = != compare text, < <= > >= numbers.
 check() {
   local verdict
   verdict=$(awk -v v="$2" -v l="$4" -v c="$3" 'BEGIN {
     if (v == "") ok = 0
-    else if (c == "=") ok = (v == l)
-    else if (c == "!=") ok = (v != l)
+    else if (c == "=") ok = (v "" == l "")
+    else if (c == "!=") ok = (v "" != l "")
     else if (c == "<") ok = (v + 0 < l + 0)
     else if (c == "<=") ok = (v + 0 <= l + 0)
     else if (c == ">") ok = (v + 0 > l + 0)
     else ok = (v + 0 >= l + 0)
     print ok ? "ok" : "FAILED" }')
-  printf '%-6s %s: %s %s (%s %s)\n' "$verdict" "$1" "${2:-nothing}" "${5:-}" "$3" "$4" >>checks
+  printf '%-6s %s: %s%s (%s %s)\n' "$verdict" "$1" "${2:-nothing}" "${5:+ $5}" "$3" "$4" >>checks
 }
 
+value() { sed -n "s/^$2=//p" "$1" | head -n1; }  # FILE KEY, of KEY=VALUE lines
+
+# Time of a mark of the play.
 at() { awk -v name="$*" '{t = $1; sub(/^[^ ]* /, ""); if ($0 == name) {print t; exit}}' marks; }
+# Time of the first line of the journal from TIME on that holds REGEX.
+logged() { awk -v from="$1" -v regex="$2" '$1 + 0 >= from + 0 && $0 ~ regex {print $1; exit}' journal; }
+said() { grep -cE -- "$1" journal || true; }  # how many lines of the journal hold REGEX
+
+ms() { # FROM TO
+  [ -z "$1" ] || [ -z "$2" ] || awk -v a="$1" -v b="$2" 'BEGIN {printf "%.2f", (b - a) * 1000}'
+}
+plus() { awk -v a="$1" -v b="$2" 'BEGIN {printf "%.6f", a + b}'; }
+
+# DroneCAN's esc.RawCommand (message 1030) on the bus, by the bytes alone, without Gannet's codec:
+# "time 0" where all motors are told to stop, "time 1" where one is told to turn.
+commands() {
+  awk '$3 ~ /^..0406/ && length($3) == 8 {
+    t = $1; gsub(/[()]/, "", t)
+    tail = $NF; start = tail ~ /^[89A-F]/; end = tail ~ /^[4-7C-F]/
+    first = 5; if (start) { moves = 0; if (!end) first = 7 }
+    for (i = first; i < NF; i++) if ($i != "00") moves = 1
+    if (end) print t, moves }' can
+}
+# From TIME on: the first command to stop / to turn, and how many to turn until a time.
+stop_after() { commands | awk -v from="$1" '$1 >= from && !$2 {print $1; exit}'; }
+turn_after() { commands | awk -v from="$1" '$1 >= from && $2 {print $1; exit}'; }
+turns_between() { commands | awk -v from="$1" -v to="${2:-9e9}" '$1 >= from && $1 < to && $2 {n++} END {print n + 0}'; }
+commands_between() { commands | awk -v from="$1" -v to="${2:-9e9}" '$1 >= from && $1 < to {n++} END {print n + 0}'; }

@@ -7,7 +7,7 @@ boot() {  # ROOT.ext4 on|off (changes stay) DISK.ext4 SEED CONSOLE LIMIT_S
   local time=(-accel "tcg,thread=single" -icount "shift=0,sleep=off" -cpu max) serial=(-serial "file:$5")
   [ -z "${KVM:-}" ] || time=(-accel kvm -cpu host)
   [ -z "$shell" ] || serial=(-serial stdio)
-  timeout --foreground "$6" qemu-system-x86_64 "${time[@]}" -seed "$4" -rtc base=2035-01-01,clock=vm \
+  timeout --foreground "$6" $(cat "$cache/qemu.command") "${time[@]}" -seed "$4" -rtc base=2035-01-01,clock=vm \
     -machine pc,nvdimm=on -smp 1 -m 768M,slots=4,maxmem=4G -nodefaults -no-user-config \
     -display none -no-reboot -kernel "$cache/vmlinux" -initrd "$cache/initrd" "${serial[@]}" \
     -append "console=ttyS0 root=/dev/pmem0 quiet panic=-1 mitigations=off net.ifnames=0 \
@@ -20,11 +20,34 @@ tsc=reliable nokaslr systemd.show_status=0 ${APPEND:-}" \
 disk() {  # FOLDER IMAGE
   rm -f "$2"
   mke2fs -q -F -t ext4 -O '^metadata_csum,^64bit,^has_journal' -m 0 -U $uuid -E "hash_seed=$uuid" \
-    -d "$1" "$2" 96M
+    -d "$1" "$2" 96M >/dev/null
 }
 
+# The guest with our package in it, installed as a user would: the package's own scripts run under
+# the guest's systemd, once for each package.
 prepare() {
   "$here/guest/build.sh" "$cache"
+  local debs stamp work=$cache/install
+  debs=$(ls build/deb/gannet*_amd64.deb 2>/dev/null || true)
+  [ -n "$debs" ] || { echo "hil: no package in build/deb: make deb" >&2; exit 1; }
+  # shellcheck disable=SC2086
+  stamp=$(cat "$cache/stamp" $debs "$here/guest/install" "$here/guest/lib.sh" | sha256sum | cut -c1-16)
+  [ "$(cat "$cache/ready.stamp" 2>/dev/null)" != "$stamp" ] || return 0
+  echo "  HIL   installing the package"
+  rm -rf "$work" "$cache/ready.stamp"
+  mkdir -p "$work/out"
+  # shellcheck disable=SC2086
+  cp $debs "$here/guest/lib.sh" "$work"
+  cp "$here/guest/install" "$work/start"
+  disk "$work" "$cache/install.ext4"
+  rm -r "$work"
+  mkdir "$work"
+  cp --sparse=always "$cache/base.ext4" "$cache/ready.ext4"
+  keep= shell= boot "$cache/ready.ext4" on "$cache/install.ext4" 1 "$cache/install.console" 300
+  debugfs -R "rdump /out $work" "$cache/install.ext4" 2>/dev/null
+  [ "$(cat "$work/out/rc" 2>/dev/null)" = 0 ] || { cat "$work/out/log" "$cache/install.console" >&2; exit 1; }
+  rm "$cache/install.ext4"
+  echo "$stamp" >"$cache/ready.stamp"
 }
 
 run_scenario() {  # NAME SEED RESULTS
@@ -40,7 +63,7 @@ run_scenario() {  # NAME SEED RESULTS
   find "$files" -exec touch -h -d '2035-01-01 UTC' {} +
   disk "$files" "$results/disk.ext4"
   rm -r "$files"
-  boot "$cache/base.ext4" off "$results/disk.ext4" "$seed" "$results/console" "${HOST_LIMIT_S:-300}" || return 1
+  boot "$cache/ready.ext4" off "$results/disk.ext4" "$seed" "$results/console" "${HOST_LIMIT_S:-300}" || return 1
   debugfs -R "rdump /out $results" "$results/disk.ext4" 2>/dev/null
   mv "$results"/out/* "$results"
   rmdir "$results/out"

@@ -12,6 +12,7 @@ stamp=$(cat "$here"/build.sh "$here"/init "$here"/units/* | sha256sum | cut -c1-
 [ "$(cat "$out/stamp" 2>/dev/null)" != "$stamp" ] || exit 0
 rm -f "$out/stamp"
 
+suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
 say() { echo "  HIL   $*"; }
 # apt drops to the user _apt for downloads, who may not write here.
 download() { apt-get -qq $([ "$(id -u)" != 0 ] || echo -o APT::Sandbox::User=root) download "$@"; }
@@ -70,6 +71,30 @@ if [ "$(cat "$kernel/release" 2>/dev/null)" != "$release" ]; then
 fi
 cp "$kernel/vmlinux" "$out/vmlinux"
 
+# ---- emulator: 10 or later ---------------------------------------------------------------------------
+# Before, AVX2's gathers read wrong places, and icount starved a second processor. Where the machine
+# has an older one, Debian's backport is unpacked beside it, on the libraries that are installed.
+qemu=$(command -v qemu-system-x86_64)
+if [ "$("$qemu" --version | sed -n 's/.* version \([0-9]*\).*/\1/p')" -lt 10 ]; then
+  if [ ! -x "$out/qemu/usr/bin/qemu-system-x86_64" ]; then
+    say "QEMU 10, unpacked"
+    rm -rf "$out/qemu" "$out/backports"
+    mkdir -p "$out/qemu" "$out"/backports/{lists/partial,cache/archives/partial}
+    apt-get indextargets --format 'deb $(REPO_URI) $(RELEASE)-backports main' 'Created-By: Packages' \
+      'Origin: Debian' | grep -m1 " $suite-backports " >"$out/backports/sources.list"
+    beside="-o Dir::Etc::sourcelist=$out/backports/sources.list -o Dir::Etc::sourceparts=-
+      -o Dir::State::lists=$out/backports/lists -o Dir::Cache=$out/backports/cache"
+    # shellcheck disable=SC2086
+    apt-get -qq $beside update
+    # shellcheck disable=SC2086
+    (cd "$out/backports" && download $beside qemu-system-x86 qemu-system-common qemu-system-data seabios)
+    for deb in "$out"/backports/*.deb; do dpkg-deb -x "$deb" "$out/qemu"; done
+    rm -r "$out/backports"
+  fi
+  qemu="$out/qemu/usr/bin/qemu-system-x86_64 -L $out/qemu/usr/share/qemu -L $out/qemu/usr/share/seabios"
+fi
+echo "$qemu" >"$out/qemu.command"
+
 modules_of() {  # paths of the modules named, with what they need, in order
   for name; do /sbin/modprobe -d "$kernel" -S "$release" --show-depends "$name"; done |
     awk '$1 == "insmod" && !seen[$2]++ {print $2}'
@@ -94,7 +119,6 @@ rm -r "$initrd"
 # ---- root ---------------------------------------------------------------------------------------
 if [ ! -s "$out/rootfs.tar" ]; then
   say "root file system"
-  suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
   # All of Debian's archives that this machine uses for its own release, as apt knows them.
   apt-get indextargets --format 'deb $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' \
     'Origin: Debian' | grep -E " $suite(-updates|-security)? " >"$out/sources.list"

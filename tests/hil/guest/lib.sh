@@ -1,13 +1,101 @@
-# What play() of a scenario may use, in the guest. Sourced by start.
+# What play() of a scenario may use, in the guest. Sourced by start. Times are CLOCK_REALTIME, which
+# candump and the journal use too.
 OUT=/hil/out
-LINES_DIR=
+WORLD=/etc/gannet/world
 
-mark() { date "+%s.%N $*" >>$OUT/marks; }  # CLOCK_REALTIME, which candump and the journal use too
+mark() { date "+%s.%N $*" >>$OUT/marks; }
 note() { echo "$*" >>$OUT/notes; }
+since_boot() { cut -d' ' -f1 /proc/uptime; }
 
+# until_true SECONDS COMMAND …: asks every 50 ms; false when it never held.
+until_true() {
+  tries=$(($1 * 20))
+  shift
+  while ! "$@"; do
+    tries=$((tries - 1))
+    [ $tries -gt 0 ] || return 1
+    sleep 0.05
+  done
+}
+
+# ---- devices --------------------------------------------------------------------------------------
+can_up() {
+  ip link add vcan0 type vcan
+  ip link set vcan0 up
+  candump -t a vcan0,0:0,#FFFFFFFF >$OUT/can &  # with error frames
+  CANDUMP=$!
+}
+
+# The lines of a chip "rov"; LINES becomes its folder, with sim_gpio0 (e-stop) and so on. The e-stop
+# is a contact that closes to high when pressed; its pull is the switch.
+lines_up() {
+  modprobe gpio-sim
+  chip=/sys/kernel/config/gpio-sim/rov
+  mkdir -p $chip/bank0/line0 $chip/bank0/line1 $chip/bank0/line2
+  echo 8 >$chip/bank0/num_lines
+  echo rov >$chip/bank0/label
+  echo estop >$chip/bank0/line0/name
+  echo release >$chip/bank0/line1/name
+  echo light >$chip/bank0/line2/name
+  echo 1 >$chip/live
+  LINES=/sys/devices/platform/$(cat $chip/dev_name)/$(cat $chip/bank0/chip_name)
+  echo pull-down >"$LINES/sim_gpio0/pull"
+  udevadm settle
+}
+press() { mark press; echo pull-up >"$LINES/sim_gpio0/pull"; }
+release() { mark release; echo pull-down >"$LINES/sim_gpio0/pull"; }
+
+cameras_up() {
+  modprobe v4l2loopback devices=2 video_nr=10,11 card_label=left,right max_buffers=8
+  udevadm settle
+}
+
+# ---- world and daemon -----------------------------------------------------------------------------
+# The world of scenario.toml behind the kernel's interfaces, and the daemon's config that fits it.
+world_up() {
+  can_up
+  lines_up
+  cameras_up
+  gannet-world /hil/scenario.toml --live --attach $WORLD --cameras v4l2:/dev/video10,/dev/video11 \
+    --can socketcan:vcan0 --lines "gpio-sim:$LINES" --seed "$SEED" --record $OUT/world "$@" \
+    >$OUT/world.log 2>&1 &
+  WORLD_PID=$!
+  until_true 20 test -s $WORLD/gannetd.toml
+  sleep 0.2
+  configure $WORLD/gannetd.toml
+}
+configure() {  # FILE
+  cp "$1" /etc/gannet/gannet.toml
+  cat >>/etc/gannet/gannet.toml.d/hil.toml <<'END'
+[track]
+evaluations = 800
+evaluations_tracking = 100
+model_points = 200
+[control]
+socket = "/run/gannet/control"
+END
+  chgrp -R gannet /etc/gannet
+  chmod -R g+rX /etc/gannet
+}
+daemon_up() { mark start; systemctl start gannetd; mark started; }
+
+state() { gannet status --json 2>/dev/null | jq -r .state; }
+state_is() { [ "$(state)" = "$1" ]; }
+servoing() {  # arm, and wait until it servoes
+  gannet target model crab >/dev/null
+  gannet arm >/dev/null
+  until_true 8 state_is servoing
+  mark servoing
+}
+
+# ---- the end ----------------------------------------------------------------------------------------
 finish() {  # CODE
   set +e
   echo "$1" >$OUT/rc
+  gannet status --json >$OUT/status.json 2>/dev/null
+  gannet top --once --json >$OUT/top.json 2>/dev/null
+  gannet events --json >$OUT/events.json 2>/dev/null
+  systemctl show gannetd >$OUT/unit
   [ -z "$CANDUMP" ] || kill "$CANDUMP" 2>/dev/null
   journalctl -o short-unix --no-hostname >$OUT/journal 2>/dev/null
   dmesg >$OUT/dmesg
@@ -17,7 +105,7 @@ finish() {  # CODE
   fi
   cd /
   sync
-  umount /hil
+  mount -o remount,ro /hil
   echo o >/proc/sysrq-trigger
   sleep 10
 }
