@@ -1,11 +1,8 @@
 #include "src/report/html_report.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <fstream>
 
+#include "platform/linux/whole_file.hpp"
 #include "src/report/svg_canvas.hpp"
 
 namespace gannet::report {
@@ -110,17 +107,7 @@ std::string HtmlReport::html() const {
 }
 
 Result<void> HtmlReport::write(const std::string& path) const {
-  const std::string beside = path + ".part";
-  errno = 0;
-  std::ofstream out(beside, std::ios::binary | std::ios::trunc);
-  out << html();
-  out.close();
-  if (!out || std::rename(beside.c_str(), path.c_str()) != 0) {
-    const int reason = errno;
-    std::remove(beside.c_str());
-    return Error{path + ": cannot write the report: " + std::strerror(reason)};
-  }
-  return {};
+  return linux_os::write_file(path, html());
 }
 
 std::string base64(std::span<const std::uint8_t> bytes) {
