@@ -2,22 +2,8 @@
 # Bad input to the real `gannet`: each case gets exit 2, one clear line on standard error that says
 # what, where and what is wanted, and leaves what was there before as it was.
 # Last line: "N passed, N failed, N skipped".
-set -u
-gannet="${GANNET_BUILD:-build/release}/bin/gannet"
-[ -x "$gannet" ] || { echo "no $gannet: run make first"; exit 77; }
-gannet=$(realpath "$gannet")
-pictures=$(realpath "$(dirname "$0")/pictures")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-passed=0
-failed=0
-
-fail() {
-  failed=$((failed + 1))
-  printf 'FAILED %s\n' "$1"
-  printf '  %s\n' "${@:2}"
-}
+. "$(dirname "$0")/../support/cases.sh"
+programs gannet
 
 # refuses NAME PATTERN COMMAND…: exit 2, and one line on standard error that matches the pattern.
 refuses() {
@@ -31,7 +17,7 @@ refuses() {
   elif [ -s out.txt ] && ! grep -q '"error"' out.txt; then
     fail "$name" "standard output: $(head -c 300 out.txt)"
   else
-    passed=$((passed + 1))
+    pass
   fi
 }
 
@@ -42,27 +28,7 @@ head -c $(($(wc -c <target.png) / 2)) target.png >cut.png
 : >empty_file.png
 echo 'this is no picture' >text.png
 
-rig() {
-  cat <<TOML
-[left]
-width = 160
-height = 120
-fx = ${1:-160.0}
-fy = 160.0
-cx = 79.5
-cy = 59.5
-[right]
-width = 160
-height = 120
-fx = 160.0
-fy = 160.0
-cx = 79.5
-cy = 59.5
-[right_from_left]
-rotation = ${2:-[1, 0, 0, 0, 1, 0, 0, 0, 1]}
-translation_m = ${3:-[-0.12, 0, 0]}
-TOML
-}
+rig() { small_rig "${3:-[-0.12, 0, 0]}" "${1:-160.0}" "${2:-[1, 0, 0, 0, 1, 0, 0, 0, 1]}"; }
 rig >rig.toml
 rig 0 >focal.toml
 rig 160.0 '[1, 0, 0, 0, 1, 0, 0, 0, -1]' >mirror.toml
@@ -99,7 +65,7 @@ refuses 'build: an empty name' '--name' "$gannet" model build --rig rig.toml --n
 refuses 'build: an unknown option' 'unknown option --backgruond \(did you mean --background\?\)' \
   "${build[@]}" --target target.png --backgruond empty.png "${out[@]}"
 refuses 'build: a folder that is not there' 'no/such' "${build[@]}" --target target.png --mask mask.png -o no/such/crab.gannet
-cmp -s crab.gannet before.gannet && passed=$((passed + 1)) || fail 'the old model is as it was'
+cmp -s crab.gannet before.gannet && pass || fail 'the old model is as it was'
 
 # ---- rigs
 locate=("$gannet" locate --left target.png --right empty.png --model crab.gannet)
@@ -152,7 +118,7 @@ for case in "--model no.gannet" "--roi 150,10,40,40" "--model crab.gannet --opti
 done
 
 "${locate[@]}" --roi 60,40,20,20 --evaluations 10 --json 2>err.txt >/dev/full
-[ $? -eq 2 ] && grep -q 'standard output' err.txt && passed=$((passed + 1)) ||
+[ $? -eq 2 ] && grep -q 'standard output' err.txt && pass ||
   fail 'locate: an answer that cannot be written' "$(cat err.txt)"
 
 # ---- track and map
@@ -169,7 +135,7 @@ printf 'frame,time_s\n1,abc\n' >frames/times.csv
 refuses 'track: a bad time' 'times.csv:2' "${track[@]}" frames
 refuses 'track: no model' '--model is missing' "$gannet" track --rig rig.toml frames
 refuses 'track: zero rate' '--fps: 0' "${track[@]}" frames --fps 0
-[ "$(cat rows.csv)" = old ] && passed=$((passed + 1)) || fail 'the old rows are as they were'
+[ "$(cat rows.csv)" = old ] && pass || fail 'the old rows are as they were'
 map=("$gannet" map --rig rig.toml --left target.png --right empty.png --model crab.gannet)
 refuses 'map: another ending' "does not end in .png" "${map[@]}" -o map.jpg --z-mm 500
 refuses 'map: turned without depth' '--rpy-deg needs --z-mm' "${map[@]}" -o map.png --rpy-deg 0,0,0
@@ -188,5 +154,4 @@ refuses 'goal: two numbers' 'not of the form X,Y,Z' "$gannet" goal 1,2
 refuses 'a mistyped subcommand' "'lcoate' is no subcommand .did you mean locate" "$gannet" lcoate
 refuses 'no subcommand' 'a subcommand is missing' "$gannet"
 
-echo "$passed passed, $failed failed, 0 skipped"
-[ $failed -eq 0 ]
+ending

@@ -2,32 +2,11 @@
 # `gannet locate`, `track` and `map` on a pair that shows the model's own photo: found where it was
 # photographed, the same to the last digit for every number of threads and every kernel, and not
 # found where there is nothing. Last line: "N passed, N failed, N skipped".
-set -u
-gannet="${GANNET_BUILD:-build/release}/bin/gannet"
-[ -x "$gannet" ] || { echo "no $gannet: run make first"; exit 77; }
-gannet=$(realpath "$gannet")
-pictures=$(realpath "$(dirname "$0")/pictures")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-passed=0
-failed=0
+. "$(dirname "$0")/../support/cases.sh"
+programs gannet
 
-check() {  # NAME COMMAND…
-  if "${@:2}"; then passed=$((passed + 1)); else
-    failed=$((failed + 1))
-    echo "FAILED $1"
-    head -c 400 out.txt
-  fi
-}
-
-# A baseline of 1 mm: at 400 mm the eyes differ by 0.4 pixels, so one photo serves both.
-for camera in left right; do
-  printf '[%s]\nwidth = 160\nheight = 120\nfx = 160.0\nfy = 160.0\ncx = 79.5\ncy = 59.5\n' $camera
-done >rig.toml
-printf '[right_from_left]\nrotation = [1, 0, 0, 0, 1, 0, 0, 0, 1]\ntranslation_m = [-0.001, 0, 0]\n' >>rig.toml
-"$gannet" model build --rig rig.toml --target "$pictures/target.png" --mask "$pictures/mask.png" \
-  --distance-mm 400 --name disc -o disc.gannet >out.txt || exit 1
+small_rig >rig.toml
+build_disc >out.txt || exit 1
 check 'build tells points and size' grep -Eq 'disc: [0-9]+ points on the target, .* 14[0-9]\.[0-9] x 14[0-9]\.[0-9] mm' out.txt
 check 'build writes a preview' test -s disc-preview.png
 
@@ -76,5 +55,4 @@ check 'the map is written' test -s map.png
 check 'its best place is the target' awk -F, 'NR > 1 && (best == "" || $3 > best) { best = $3; x = $1; y = $2 }
   END { exit !(x > -0.011 && x < 0.011 && y > -0.011 && y < 0.011) }' map.csv
 
-echo "$passed passed, $failed failed, 0 skipped"
-[ $failed -eq 0 ]
+ending

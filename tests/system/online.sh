@@ -1,43 +1,15 @@
 #!/bin/bash
 # `gannet` against a real gannetd that replays a recording without motors: every online subcommand,
 # as text and as JSON. Last line: "N passed, N failed, N skipped".
-set -u
-build=${GANNET_BUILD:-build/release}
-for program in gannet gannetd; do
-  [ -x "$build/bin/$program" ] || { echo "no $build/bin/$program: run make first"; exit 77; }
-done
-gannet=$(realpath "$build/bin/gannet")
-gannetd=$(realpath "$build/bin/gannetd")
-pictures=$(realpath "$(dirname "$0")/pictures")
-work=$(mktemp -d)
+. "$(dirname "$0")/../support/cases.sh"
+programs gannet gannetd
 daemon=
 trap '[ -z "$daemon" ] || kill "$daemon" 2>/dev/null; rm -rf "$work"' EXIT
-cd "$work" || exit 1
-passed=0
-failed=0
 
 mkdir -p frames/left frames/right
 cp "$pictures/target.png" frames/left/1.png
 cp "$pictures/target.png" frames/right/1.png
-cat >rig.toml <<'TOML'
-[left]
-width = 160
-height = 120
-fx = 160.0
-fy = 160.0
-cx = 79.5
-cy = 59.5
-[right]
-width = 160
-height = 120
-fx = 160.0
-fy = 160.0
-cx = 79.5
-cy = 59.5
-[right_from_left]
-rotation = [1, 0, 0, 0, 1, 0, 0, 0, 1]
-translation_m = [-0.001, 0, 0]
-TOML
+small_rig >rig.toml
 cat >gannet.toml <<'TOML'
 rig = "rig.toml"
 models = ["disc.gannet"]
@@ -48,8 +20,7 @@ control.socket = "control"
 realtime.lock_memory = false
 track.evaluations = 200
 TOML
-"$gannet" model build --rig rig.toml --target "$pictures/target.png" --mask "$pictures/mask.png" \
-  --distance-mm 400 --name disc -o disc.gannet >/dev/null || exit 1
+build_disc >/dev/null || exit 1
 "$gannetd" -c gannet.toml >daemon.log 2>&1 &
 daemon=$!
 for _ in $(seq 100); do
@@ -65,12 +36,8 @@ says() {
   "$gannet" "$@" --socket control >out.txt 2>&1
   code=$?
   [ -s out.txt ] || echo NOTHING >out.txt
-  if [ $code -eq "$wanted" ] && grep -Eq -- "$pattern" out.txt; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    printf 'FAILED %s: exit %d\n' "$name" $code
-    head -c 600 out.txt
+  if [ $code -eq "$wanted" ] && grep -Eq -- "$pattern" out.txt; then pass; else
+    fail "$name" "exit $code" "$(head -c 600 out.txt)"
   fi
 }
 
@@ -100,12 +67,8 @@ kill "$daemon"
 wait "$daemon"
 code=$?
 daemon=
-if [ $code -eq 0 ]; then passed=$((passed + 1)); else
-  failed=$((failed + 1))
-  echo "FAILED gannetd stops in order: exit $code"
-  tail -5 daemon.log
-fi
+tail -5 daemon.log >out.txt
+check 'gannetd stops in order' [ $code -eq 0 ]
 says 'after it has stopped nobody serves' 2 'nobody serves' status
 
-echo "$passed passed, $failed failed, 0 skipped"
-[ $failed -eq 0 ]
+ending
