@@ -41,6 +41,7 @@ class Reports {
   control::Json loops_json() const;       // stages with last, mean, max, budget, percentiles
   control::Json histograms_json() const;  // frame → pose, frame → CAN …
   control::Json drops_json() const;
+  control::Json cameras_json() const;  // what was wrong with images, the skew of pairs
 
  private:
   void drain(EventPort& port);

@@ -7,6 +7,7 @@
 #include "platform/base/nearest_word.hpp"
 #include "src/config/daemon_config.hpp"
 #include "src/config/rig_file.hpp"
+#include "src/tool/cameras.hpp"
 #include "src/tool/offline.hpp"
 #include "src/tool/online.hpp"
 
@@ -87,7 +88,8 @@ int print_reference(const std::string& name) {
 std::span<const Subcommand> subcommands() {
   static const std::vector<Subcommand> kTable = [] {
     std::vector<Subcommand> table = {model_build_subcommand(), locate_subcommand(),
-                                     track_subcommand(), map_subcommand(), report_subcommand()};
+                                     track_subcommand(),       map_subcommand(),
+                                     report_subcommand(),      cameras_subcommand()};
     const std::vector<Subcommand> online = online_subcommands();
     table.insert(table.end(), online.begin(), online.end());
     return table;

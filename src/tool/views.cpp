@@ -98,6 +98,15 @@ std::string pairs(const Json& object, int decimals) {
   return text;
 }
 
+// What was wrong with images, and how far apart a pair's time stamps are: only what is not 0.
+std::string camera_text(const Json& cameras) {
+  Json seen = Json::object();
+  if (cameras.is_object())
+    for (const auto& [name, value] : cameras.items())
+      if (value != 0) seen[name] = value;
+  return seen.empty() ? "no faults" : pairs(seen, 1);
+}
+
 }  // namespace
 
 std::string state_text(const Json& answer) {
@@ -137,6 +146,7 @@ std::string top_text(const Json& top) {
     text += "\n" + stage_table(loops[i]).text();
   text += "\n" + latency_text(member(top, "latencies"));
   text += "\nages ms  " + pairs(member(top, "ages_ms"), 1);
+  text += "\ncameras  " + camera_text(member(top, "cameras"));
   return text + "\ncounts   " + pairs(member(top, "drops"), 0) + "\n";
 }
 

@@ -44,10 +44,12 @@ TEST(Views, top_shows_each_stage_with_its_budget) {
        "budget_us": 500, "over_budget": 2}]}],
     "latencies": {"frame_to_pose": {"p50_us": 12000, "p90_us": 15000, "p99_us": 20000,
                                     "p99_9_us": 21000, "max_us": 30000}},
-    "ages_ms": {"estimate": 40.2}, "drops": {"camera_dropped": 3}})");
+    "ages_ms": {"estimate": 40.2}, "drops": {"camera_dropped": 3},
+    "cameras": {"frozen": 2, "short": 0, "skew_ms": -1.25}})");
   const std::string text = top_text(top);
-  for (const char* part : {"receive", "12.3", "500", "frame_to_pose", "12.00", "30.00",
-                           "estimate 40.2", "camera_dropped 3"})
+  for (const char* part :
+       {"receive", "12.3", "500", "frame_to_pose", "12.00", "30.00", "estimate 40.2",
+        "camera_dropped 3", "cameras  frozen 2.0, skew_ms -1.2"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
