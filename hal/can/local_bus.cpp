@@ -91,6 +91,7 @@ bool LocalBus::try_connect() {
   }
   socket_ = UnixSocket(std::move(fd));
   backoff_ = {};
+  health_.restart(true);
   ++connections_;
   return true;
 }
@@ -110,14 +111,14 @@ void LocalBus::go_down(TimePoint now) {
 }
 
 bool LocalBus::is_wanted(const CanFrame& frame) const {
-  return filters_.empty() || frame.error ||
+  return filters_.empty() ||
          std::any_of(filters_.begin(), filters_.end(),
                      [&](const CanFilter& filter) { return filter.matches(frame); });
 }
 
 int LocalBus::send(std::span<const CanFrame> frames, TimePoint now) {
   int taken = 0;
-  if (is_up(now)) {
+  if (is_up(now) && health_.state() != BusState::kOff) {
     for (const CanFrame& frame : frames) {
       const LocalIo io = send_frame(socket_, frame);
       if (io == LocalIo::kClosed) go_down(now);
@@ -140,6 +141,8 @@ int LocalBus::receive(std::span<ReceivedCanFrame> frames, TimePoint now) {
     if (io == LocalIo::kClosed || io == LocalIo::kNothing) break;
     if (io == LocalIo::kMalformed) {
       ++counters_.malformed;
+    } else if (frames[filled].frame.error) {
+      health_.take(frames[filled].frame, counters_);
     } else if (is_wanted(frames[filled].frame)) {
       frames[filled++].time = now;
     }

@@ -3,7 +3,9 @@
 //
 // LocalBus is a node. It connects to a hub; when the hub is absent or goes, the bus is kDown and
 // send and receive try again, by time, first after 10 ms, then ever later up to once a second. It
-// never blocks. Two nodes without a hub are a pair(). Created at start-up; then RT safe.
+// never blocks. Error frames, which only a simulated world sends, become state() and counters() as
+// with a controller; while it is off the bus nothing is sent. Two nodes without a hub are a pair().
+// Created at start-up; then RT safe.
 //
 // LocalCanHub is the server (the simulated world): it hears every node and passes each frame on to
 // all the others, as a wire does. It is itself a node on that wire. Its thread alone; no memory is
@@ -17,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "hal/can/bus_health.hpp"
 #include "hal/can/can_bus.hpp"
 #include "platform/base/fixed_vector.hpp"
 #include "platform/base/result.hpp"
@@ -40,7 +43,7 @@ class LocalBus final : public CanBus {
 
   int send(std::span<const CanFrame> frames, TimePoint now) override;
   int receive(std::span<ReceivedCanFrame> frames, TimePoint now) override;
-  BusState state() const override { return socket_.valid() ? BusState::kGood : BusState::kDown; }
+  BusState state() const override { return socket_.valid() ? health_.state() : BusState::kDown; }
   CanCounters counters() const override { return counters_; }
   std::uint64_t connections() const { return connections_; }
 
@@ -57,6 +60,7 @@ class LocalBus final : public CanBus {
   std::vector<CanFilter> filters_;
   Duration backoff_ = {};
   TimePoint next_attempt_ = {};
+  BusHealth health_;
   CanCounters counters_;
   std::uint64_t connections_ = 0;
 };

@@ -55,6 +55,24 @@ TEST_F(LocalBusTest, TheHubPassesAFrameToAllOtherNodes) {
   EXPECT_EQ(c->receive(in_, at_ms(0)), 1);
 }
 
+TEST_F(LocalBusTest, ErrorFramesAreTheBussStateAndOffSendsNothing) {
+  auto hub = listen();
+  auto node = connect({{.id = 1, .mask = 0x1FFFFFFF, .extended = true}});
+  hub->receive(in_, at_ms(0));
+  const CanFrame off = {.id = 0x040, .error = true, .length = 8};
+  const CanFrame restarted = {.id = 0x100, .error = true, .length = 8};
+  hub->send({&off, 1}, at_ms(1));
+  EXPECT_EQ(node->receive(in_, at_ms(2)), 0);
+  EXPECT_EQ(node->state(), BusState::kOff);
+  EXPECT_EQ(send(*node, 1), 0);
+  EXPECT_EQ(hub->receive(in_, at_ms(3)), 0);
+  hub->send({&restarted, 1}, at_ms(4));
+  node->receive(in_, at_ms(5));
+  EXPECT_EQ(node->state(), BusState::kGood);
+  EXPECT_EQ(send(*node, 1), 1);
+  EXPECT_EQ(node->counters().bus_off, 1u);
+}
+
 TEST_F(LocalBusTest, APairNeedsNoHub) {
   auto [a, b] = std::move(LocalBus::pair()).value();
   send(*a, 1);
