@@ -80,7 +80,9 @@ Result<Parts> make_parts(const config::LoadedConfig& loaded) {
   if (!law) return at_key("servo", law.error());
   parts.law = std::move(*law);
   if (!has_vehicle) return parts;
-  auto drives = hal::make_drive_group(config.drive);
+  hal::DriveConfig drive = config.drive;
+  drive.cia402.servo_period_s = 1 / config.realtime.servo_rate_hz;
+  auto drives = hal::make_drive_group(drive);
   if (!drives) return at_key("drive", drives.error());
   parts.drives = std::move(*drives);
   if (parts.drives->size() != parts.vehicle->motors()) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "hal/drive/cia402_objects.hpp"
 #include "platform/base/nearest_word.hpp"
 #include "src/config/daemon_config.hpp"
 #include "src/config/rig_file.hpp"
@@ -69,6 +70,7 @@ int print_reference(const std::string& name) {
   std::string text;
   if (name == "gannet.toml.5") text = config::config_man_page();
   if (name == "gannet.toml.md") text = config::config_markdown();
+  if (name == "gannet-cia402.eds") text = hal::cia402::eds_text();
   if (name == "rig.md")
     text =
         "# RIG files\n\nThe calibration of two cameras. The keys of [left], [right] and "

@@ -15,3 +15,4 @@ done
 "$bin/gannet" --reference gannet.toml.5 >"$out/man/gannet.toml.5"
 "$bin/gannet" --reference gannet.toml.md >"$out/reference/gannet.toml.md"
 "$bin/gannet" --reference rig.md >"$out/reference/rig.md"
+"$bin/gannet" --reference gannet-cia402.eds >"$out/reference/gannet-cia402.eds"
