@@ -170,6 +170,7 @@ help:
 	@echo "make check        install what is missing, build, run all tests that need no privileges"
 	@echo "make bench        measure kernels, hand-overs and stages against references, in one run"
 	@echo "make asan, tsan   the tests under AddressSanitizer + UBSan, under ThreadSanitizer"
+	@echo "make fuzz         libFuzzer over everything that comes from outside; FUZZ_SECONDS=20 each"
 	@echo "make clang        compile everything with clang++, warnings are errors"
 	@echo "make arm64        cross-compile for ARM64, run the kernels' tests under qemu"
 	@echo "make docs         write man pages and references from the descriptions in the code"
@@ -249,6 +250,6 @@ clean:
 
 .PHONY: all tests help deps check run-tests asan tsan clang arm64 format docs install clean
 
-include tests/support/assets.mk tests/support/bench.mk tests/support/demo.mk systemd/deb/deb.mk
+include tests/support/assets.mk tests/support/bench.mk tests/support/demo.mk tests/support/fuzz.mk systemd/deb/deb.mk
 
 -include $(shell find $B -name '*.d' 2>/dev/null)

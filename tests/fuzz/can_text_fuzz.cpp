@@ -1,8 +1,5 @@
 // libFuzzer entry: CAN frames and log lines from any text. What is read can be written, and reads
-// the same again. Build, from the project's folder:
-//   clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -I. tests/fuzz/can_text_fuzz.cpp
-//   \
-//     hal/can/can_text.cpp -o build/can_text_fuzz
+// the same again.
 #include <cstdlib>
 #include <string_view>
 

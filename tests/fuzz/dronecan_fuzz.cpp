@@ -1,8 +1,6 @@
 // libFuzzer entry: a DroneCAN drive under any frames. The input is frames of 13 bytes (4 id, 1
 // length, 8 data; the id's upper bits choose what it looks like). Whatever comes, the drive goes on
-// commanding all its motors within their range. Build, from the project's folder:
-//   clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -I. -DGANNET_VERSION='"0.1.0"' \
-//     tests/fuzz/dronecan_fuzz.cpp hal/drive/*.cpp -o build/dronecan_fuzz
+// commanding all its motors within their range.
 #include <cstdlib>
 #include <cstring>
 
