@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "hal/camera/v4l2_controls.hpp"
 #include "hal/camera/v4l2_offer.hpp"
@@ -160,18 +161,19 @@ V4l2Taken V4l2Device::take(TimePoint now, CaptureCounters& counters, V4l2Image& 
   if (error != 0 || buffer.index >= static_cast<std::uint32_t>(count_)) return V4l2Taken::kGone;
   const int index = static_cast<int>(buffer.index);
   Buffer& slot = buffers_[buffer.index];
-  if (!slot.queued) return V4l2Taken::kGone;  // one that is ours: its bookkeeping is lost
-  slot.queued = false;
-  --queued_;
+  // v4l2loopback writes round and round, whoever holds a buffer: what it gives may be one that is
+  // not its own.
+  const bool is_theirs = std::exchange(slot.queued, false);
+  if (is_theirs) --queued_;
   const V4l2Fault fault = judge_.judge(buffer, now);
   count(fault, counters);
   counters.missed += judge_.missed();
   counters.dropped += judge_.missed();
   number_ += 1 + judge_.missed();
   // The driver keeps two buffers, or it would lose frames that are newer than those we hold.
-  const bool short_of_buffers = queued_ < std::min(2, count_ - 1);
-  if (fault != V4l2Fault::kNone || short_of_buffers) {
-    queue(index);
+  const bool has_slot = is_theirs && queued_ >= std::min(2, count_ - 1);
+  if (fault != V4l2Fault::kNone || !has_slot) {
+    if (is_theirs) queue(index);
     if (fault != V4l2Fault::kNone) return V4l2Taken::kRefused;
     ++counters.dropped;
     return V4l2Taken::kNoSlot;

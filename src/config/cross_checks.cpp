@@ -68,10 +68,28 @@ class Checker {
   void check_clock_and_frames() {
     if (config_.camera.kind == "replay" && config_.camera.replay.directory.empty())
       refuse("camera.replay.directory", "is needed by camera.kind \"replay\"");
+    check_v4l2();
     if (config_.clock.kind == "stepped" && config_.clock.step_socket.empty())
       refuse("clock.step_socket", "is needed by clock.kind \"stepped\"");
     if (config_.frames.kind == "directory" && config_.frames.directory.empty())
       refuse("frames.directory", "is needed by frames.kind \"directory\"");
+  }
+
+  void check_v4l2() {
+    const std::string& kind = config_.camera.kind;
+    const auto& pair = config_.camera.v4l2_pair;
+    const auto need = [&](const char* key, const std::string& value) {
+      if (value.empty())
+        refuse("camera." + kind + "." + key, "is needed by camera.kind \"" + kind + "\"");
+    };
+    if (kind == "v4l2_side_by_side") need("device", config_.camera.v4l2_side_by_side.device);
+    if (kind == "v4l2_pair") {
+      need("left", pair.left);
+      need("right", pair.right);
+      if (pair.stream.rate_hz * pair.pair_tolerance_s >= 0.5)
+        refuse("camera.v4l2_pair.pair_tolerance_s",
+               "is not less than half a period, " + number_text(0.5 / pair.stream.rate_hz) + " s");
+    }
   }
 
   void check_track() {
@@ -130,6 +148,8 @@ class Checker {
   // The kernel stamps by its own clock.
   void check_kernel_times() {
     if (config_.clock.kind != "stepped") return;
+    if (config_.camera.kind.rfind("v4l2", 0) == 0)
+      refuse("camera.kind", "\"" + config_.camera.kind + "\" needs clock.kind \"live\"");
     if (config_.can.kind == "socketcan")
       refuse("can.kind", "\"socketcan\" needs clock.kind \"live\"");
     if (config_.gpio.estop.kind == "gpiod")

@@ -61,6 +61,7 @@ class ScriptedV4l2 final : public hal::V4l2System {
     bool stream_fails = false;  // POLLERR and EIO until it is started anew
     int queue_errors = 0;       // so many QBUF are refused
     int start_error = 0;        // of STREAMON
+    bool loops_back = false;    // as v4l2loopback: writes round and round, whoever holds a buffer
     int opened = 0;             // how often
 
    private:
@@ -227,9 +228,12 @@ class ScriptedV4l2 final : public hal::V4l2System {
     frame.fill = static_cast<std::uint8_t>(frame.sequence + 1);
     device.next += device.period;
     const bool comes = !device.alter || device.alter(frame);
-    if (!comes || device.waiting.empty()) return;
-    const int index = device.waiting.front();
-    device.waiting.pop_front();
+    if (!comes || (device.waiting.empty() && !device.loops_back)) return;
+    int index = static_cast<int>(frame.sequence % device.memory.size());
+    if (!device.loops_back) {
+      index = device.waiting.front();
+      device.waiting.pop_front();
+    }
     auto& bytes = device.memory[static_cast<std::size_t>(index)]->bytes;
     std::memset(bytes.data(), frame.fill, bytes.size());
     std::copy_n(frame.content.begin(), std::min(frame.content.size(), bytes.size()), bytes.begin());
@@ -438,7 +442,9 @@ class ScriptedV4l2 final : public hal::V4l2System {
   }
   static int queue(Device& d, v4l2_buffer& b) {
     if (d.queue_errors > 0) return --d.queue_errors, -EINVAL;
-    if (b.index >= d.memory.size() || d.memory[b.index]->queued) return -EINVAL;
+    if (b.index >= d.memory.size()) return -EINVAL;
+    if (d.loops_back) return 0;
+    if (d.memory[b.index]->queued) return -EINVAL;
     d.memory[b.index]->queued = true;
     d.waiting.push_back(static_cast<int>(b.index));
     return 0;

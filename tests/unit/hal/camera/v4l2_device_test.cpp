@@ -199,6 +199,27 @@ TEST_F(V4l2DeviceTest, held_images_are_never_overwritten) {
   EXPECT_EQ(counters_.broken, 0u);
 }
 
+TEST_F(V4l2DeviceTest, a_loop_back_that_writes_into_a_held_buffer_costs_that_image_alone) {
+  device_.loops_back = true;
+  ASSERT_EQ(open(), "open");
+  V4l2Image held, image;
+  ASSERT_EQ(take(held), V4l2Taken::kImage);
+  for (int round = 0; round < 3; ++round) {
+    for (int i = 0; i < 3; ++i) {
+      image = V4l2Image{};
+      ASSERT_EQ(take(image), V4l2Taken::kImage);
+    }
+    image = V4l2Image{};
+    ASSERT_EQ(take(image), V4l2Taken::kNoSlot);
+  }
+  held = V4l2Image{};
+  for (int i = 0; i < 9; ++i) {
+    image = V4l2Image{};
+    ASSERT_EQ(take(image), V4l2Taken::kImage);
+  }
+  EXPECT_EQ(counters_.dropped, 3u);
+}
+
 TEST_F(V4l2DeviceTest, closing_unmaps_everything) {
   ASSERT_EQ(open(), "open");
   EXPECT_EQ(system_.mapped(), 4);

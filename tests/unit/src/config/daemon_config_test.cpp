@@ -173,6 +173,20 @@ TEST_F(DaemonConfigTest, a_second_estop_channel_must_move_the_other_way) {
             std::string::npos);
 }
 
+TEST_F(DaemonConfigTest, v4l2_cameras_need_devices_and_a_tolerance_that_fits_the_rate) {
+  write("rig.toml", kRig);
+  write("gannet.toml",
+        "rig = \"rig.toml\"\n[camera]\nkind = \"v4l2_pair\"\n[camera.v4l2_pair]\nleft = \"a\"\n"
+        "rate_hz = 20\npair_tolerance_s = 0.025\n");
+  EXPECT_EQ(problems(),
+            "gannet.toml:4: camera.v4l2_pair.right: is needed by camera.kind \"v4l2_pair\"\n"
+            "gannet.toml:7: camera.v4l2_pair.pair_tolerance_s: is not less than half a period, "
+            "0.025 s");
+  EXPECT_EQ(problems({"camera.kind=v4l2_side_by_side"}),
+            "--set camera.kind=v4l2_side_by_side: camera.v4l2_side_by_side.device: is needed by "
+            "camera.kind \"v4l2_side_by_side\"");
+}
+
 TEST_F(DaemonConfigTest, kinds_that_the_kernel_stamps_need_the_live_clock) {
   write("rig.toml", kRig);
   write("gannet.toml",
@@ -181,6 +195,9 @@ TEST_F(DaemonConfigTest, kinds_that_the_kernel_stamps_need_the_live_clock) {
   EXPECT_EQ(problems(),
             "gannet.toml:6: can.kind: \"socketcan\" needs clock.kind \"live\"\n"
             "gannet.toml:8: gpio.estop.kind: \"gpiod\" needs clock.kind \"live\"");
+  EXPECT_NE(problems({"camera.kind=v4l2_side_by_side"})
+                .find("camera.kind: \"v4l2_side_by_side\" needs clock.kind \"live\""),
+            std::string::npos);
 }
 
 TEST(DaemonConfig, the_default_file_loads_back_to_the_built_in_values) {
