@@ -173,6 +173,7 @@ help:
 	@echo "make fuzz         libFuzzer over everything that comes from outside; FUZZ_SECONDS=20 each"
 	@echo "make clang        compile everything with clang++, warnings are errors"
 	@echo "make arm64        cross-compile for ARM64, run the kernels' tests under qemu"
+	@echo "make hil          scenarios on real kernel interfaces in a virtual machine: HIL_SCENARIOS= SEEDS= KVM=1"
 	@echo "make docs         write man pages and references from the descriptions in the code"
 	@echo "make format       clang-format everything"
 	@echo "make install      DESTDIR= PREFIX=/usr/local; enables and starts nothing"
@@ -246,10 +247,10 @@ install: all
 	[ -e $(DESTDIR)/etc/gannet/gannet.toml ] || install -m 644 systemd/gannet.toml $(DESTDIR)/etc/gannet
 
 clean:
-	find build -mindepth 1 -maxdepth 1 ! -name assets -exec rm -rf {} + 2>/dev/null; true
+	rm -rf build/hil/results build/hil/cache/ready.*; find build -mindepth 1 -maxdepth 1 ! -name assets ! -name hil -exec rm -rf {} + 2>/dev/null; true
 
 .PHONY: all tests help deps check run-tests asan tsan clang arm64 format docs install clean
 
-include tests/support/assets.mk tests/support/bench.mk tests/support/demo.mk tests/support/fuzz.mk systemd/deb/deb.mk
+include tests/support/assets.mk tests/support/bench.mk tests/support/demo.mk tests/support/fuzz.mk systemd/deb/deb.mk tests/hil/hil.mk
 
 -include $(shell find $B -name '*.d' 2>/dev/null)

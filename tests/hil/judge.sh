@@ -53,3 +53,6 @@ stop_after() { commands | awk -v from="$1" '$1 >= from && !$2 {print $1; exit}';
 turn_after() { commands | awk -v from="$1" '$1 >= from && $2 {print $1; exit}'; }
 turns_between() { commands | awk -v from="$1" -v to="${2:-9e9}" '$1 >= from && $1 < to && $2 {n++} END {print n + 0}'; }
 commands_between() { commands | awk -v from="$1" -v to="${2:-9e9}" '$1 >= from && $1 < to {n++} END {print n + 0}'; }
+longest_gap() { # between commands, FROM TO
+  commands | awk -v from="$1" -v to="$2" '$1 >= from && $1 < to {if (last && $1 - last > gap) gap = $1 - last; last = $1} END {printf "%.2f", gap * 1000}'
+}

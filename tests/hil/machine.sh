@@ -23,15 +23,17 @@ disk() {  # FOLDER IMAGE
     -d "$1" "$2" 96M >/dev/null
 }
 
-# The guest with our package in it, installed as a user would: the package's own scripts run under
-# the guest's systemd, once for each package.
 prepare() {
   "$here/guest/build.sh" "$cache"
+  [ "$cache/poke" -nt "$here/guest/poke.c" ] || gcc -O2 -Wall -Wextra -Werror -static -o "$cache/poke" "$here/guest/poke.c"
+}
+
+install_package() {
   local debs stamp work=$cache/install
   debs=$(ls build/deb/gannet*_amd64.deb 2>/dev/null || true)
   [ -n "$debs" ] || { echo "hil: no package in build/deb: make deb" >&2; exit 1; }
   # shellcheck disable=SC2086
-  stamp=$(cat "$cache/stamp" $debs "$here/guest/install" "$here/guest/lib.sh" | sha256sum | cut -c1-16)
+  stamp=$(cat "$cache/stamp" $debs "$here/guest/install" | sha256sum | cut -c1-16)
   [ "$(cat "$cache/ready.stamp" 2>/dev/null)" != "$stamp" ] || return 0
   echo "  HIL   installing the package"
   rm -rf "$work" "$cache/ready.stamp"
@@ -54,11 +56,17 @@ run_scenario() {  # NAME SEED RESULTS
   local name=$1 seed=$2 results=$3 files
   rm -rf "$results"
   mkdir -p "$results"
+  if [ "$(. "$here/scenarios/$name.sh"; echo "${OWN_MACHINE:-}")" = 1 ]; then
+    (. "$here/scenarios/$name.sh"; machine "$seed" "$results")
+    return
+  fi
+  install_package
   files=$results/files
   mkdir -p "$files/out"
-  cp "$here"/guest/start "$here"/guest/lib.sh "$files"
+  cp "$here"/guest/start "$here"/guest/lib.sh "$cache/poke" "$files"
   cp "$here/scenarios/$name.sh" "$files/scenario.sh"
-  [ ! -e "$here/scenarios/$name.toml" ] || cp "$here/scenarios/$name.toml" "$files/scenario.toml"
+  cat "$here/world.toml" >"$files/scenario.toml"
+  (. "$here/scenarios/$name.sh"; echo "${EVENTS:-}") >>"$files/scenario.toml"
   { echo "SEED=$seed"; echo "SHELL_WANTED=$shell"; } >>"$files/lib.sh"
   find "$files" -exec touch -h -d '2035-01-01 UTC' {} +
   disk "$files" "$results/disk.ext4"

@@ -31,19 +31,22 @@ can_up() {
 lines_up() {
   modprobe gpio-sim
   chip=/sys/kernel/config/gpio-sim/rov
-  mkdir -p $chip/bank0/line0 $chip/bank0/line1 $chip/bank0/line2
+  mkdir -p $chip/bank0
   echo 8 >$chip/bank0/num_lines
   echo rov >$chip/bank0/label
-  echo estop >$chip/bank0/line0/name
-  echo release >$chip/bank0/line1/name
-  echo light >$chip/bank0/line2/name
+  number=0
+  for line in estop release light estop_second; do
+    mkdir $chip/bank0/line$number
+    echo $line >$chip/bank0/line$number/name
+    number=$((number + 1))
+  done
   echo 1 >$chip/live
   LINES=/sys/devices/platform/$(cat $chip/dev_name)/$(cat $chip/bank0/chip_name)
   echo pull-down >"$LINES/sim_gpio0/pull"
   udevadm settle
 }
-press() { mark press; echo pull-up >"$LINES/sim_gpio0/pull"; }
-release() { mark release; echo pull-down >"$LINES/sim_gpio0/pull"; }
+press() { ./poke "$LINES/sim_gpio0/pull" pull-up press >>$OUT/marks; }
+release() { ./poke "$LINES/sim_gpio0/pull" pull-down release >>$OUT/marks; }
 
 cameras_up() {
   modprobe v4l2loopback devices=2 video_nr=10,11 card_label=left,right max_buffers=8
@@ -56,10 +59,13 @@ world_up() {
   can_up
   lines_up
   cameras_up
+  mkdir -p $WORLD
   gannet-world /hil/scenario.toml --live --attach $WORLD --cameras v4l2:/dev/video10,/dev/video11 \
     --can socketcan:vcan0 --lines "gpio-sim:$LINES" --seed "$SEED" --record $OUT/world "$@" \
     >$OUT/world.log 2>&1 &
   WORLD_PID=$!
+  # The service may write nowhere but into its own folders; the world looks here for its socket.
+  ln -sf /run/gannet/control $WORLD/control
   until_true 20 test -s $WORLD/gannetd.toml
   sleep 0.2
   configure $WORLD/gannetd.toml
@@ -83,18 +89,26 @@ state() { gannet status --json 2>/dev/null | jq -r .state; }
 state_is() { [ "$(state)" = "$1" ]; }
 servoing() {  # arm, and wait until it servoes
   gannet target model crab >/dev/null
+  mark arm
   gannet arm >/dev/null
   until_true 8 state_is servoing
   mark servoing
+}
+
+# What the daemon says of itself, as KEY=VALUE lines for the judge: status-WHEN, top-WHEN.
+flatten() { jq -r 'paths(scalars) as $p | ($p | map(tostring) | join(".")) + "=" + (getpath($p) | tostring)'; }
+figures() {  # WHEN
+  mark "figures $1"
+  gannet status --json 2>/dev/null | flatten >"$OUT/status-$1"
+  gannet top --once --json 2>/dev/null | flatten >"$OUT/top-$1"
 }
 
 # ---- the end ----------------------------------------------------------------------------------------
 finish() {  # CODE
   set +e
   echo "$1" >$OUT/rc
-  gannet status --json >$OUT/status.json 2>/dev/null
-  gannet top --once --json >$OUT/top.json 2>/dev/null
-  gannet events --json >$OUT/events.json 2>/dev/null
+  figures end
+  [ ! -e $OUT/world/result.json ] || flatten <$OUT/world/result.json >$OUT/result
   systemctl show gannetd >$OUT/unit
   [ -z "$CANDUMP" ] || kill "$CANDUMP" 2>/dev/null
   journalctl -o short-unix --no-hostname >$OUT/journal 2>/dev/null

@@ -26,7 +26,7 @@ right = "/dev/video21"
 width = 320
 height = 180
 rate_hz = 25
-pair_tolerance_s = 0.02
+pair_tolerance_s = 0.019
 [vehicle]
 kind = "none"
 [can]
@@ -34,17 +34,23 @@ kind = "memory"
 END
   daemon_up
   sleep 1
-  gannet top --once --json >$OUT/top0.json
+  figures before
   mark disconnect
   v4l2-ctl -d /dev/video20 -c disconnect=1
   sleep 2
-  gannet top --once --json >$OUT/top1.json
+  figures unplugged
   v4l2-ctl -d /dev/video20 -c inject_v4l2_buf_flag_error=1
   sleep 0.5
-  gannet top --once --json >$OUT/top2.json
+  figures flagged
   v4l2-ctl -d /dev/video21 -c percentage_of_dropped_buffers=30
   sleep 2
 }
 judge() {
-  check "the daemon was never restarted" "$(value unit NRestarts)" = 0
+  local back
+  check "pairs before" "$(value top-before drops.frames)" ">" 15
+  check "told that the cameras are silent" "$(ms "$(at disconnect)" "$(logged "$(at disconnect)" 'cameras are silent')")" "<" 700 ms
+  check "back, without a restart" "$(ms "$(at disconnect)" "$(logged "$(at disconnect)" 'cameras are back')")" "<" 1500 ms
+  check "the daemon was restarted" "$(value unit NRestarts)" = 0 times
+  check "frames with the error flag" "$(value top-flagged cameras.error_flagged)" = 1
+  check "images missed of 30 % dropped" "$(value top-end cameras.missed)" ">" 8
 }
