@@ -18,15 +18,13 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "hal/can/bus_health.hpp"
 #include "hal/can/can_bus.hpp"
-#include "hal/can/can_calls.hpp"
-#include "hal/can/can_wire.hpp"
+#include "hal/can/can_socket.hpp"
 #include "platform/base/result.hpp"
 
 namespace gannet::hal {
@@ -39,70 +37,44 @@ class SocketCanBus final : public CanBus {
                                                     const std::vector<CanFilter>& wanted,
                                                     TimePoint now,
                                                     CanCalls& calls = linux_can_calls());
-  ~SocketCanBus() override;
-  SocketCanBus(const SocketCanBus&) = delete;
-  SocketCanBus& operator=(const SocketCanBus&) = delete;
 
   int send(std::span<const CanFrame> frames, TimePoint now) override;
   int receive(std::span<ReceivedCanFrame> frames, TimePoint now) override;
   BusState state() const override { return link_ == Link::kUp ? health_.state() : BusState::kDown; }
-  CanCounters counters() const override { return counters_; }
-  int fd() const { return fd_; }  // for a wait (poll); another one after the interface was away
+  CanCounters counters() const override;
+  int fd() const {
+    return socket_.fd();
+  }  // for a wait (poll); another one after the interface was away
 
  private:
-  static constexpr int kBatch = 32;
-  static constexpr std::size_t kControlBytes = 128;
   enum class Link : std::uint8_t { kUp, kDown, kGone };
-  enum class Step : std::uint8_t { kDone, kSocket, kInterface, kOptions, kBind };
-  struct Filter {  // as the kernel has it
-    std::uint32_t id, mask;
-  };
-  struct Failure {
-    Step step = Step::kDone;
-    int error = 0;
-  };
   struct Clocks {
     TimePoint monotonic;
     Duration realtime_offset;
   };
 
-  SocketCanBus(const std::string& interface, const std::vector<CanFilter>& wanted, CanCalls& calls);
-  Failure open_socket();
-  int set_options(int fd);
-  Error explain(const Failure& failure) const;
+  SocketCanBus(const std::string& interface, const std::vector<CanFilter>& wanted, CanCalls& calls)
+      : calls_(calls), socket_(interface, wanted, calls) {}
+  CanSocket::Failure open_socket();
   void read_link();
   bool is_up(TimePoint now);
   void check_carrier(TimePoint now);
   void note_error(int error, TimePoint now);
-  void look_later(Duration after, TimePoint now) { next_look_ = now + after; }
-  int send_some(std::span<const CanFrame> frames, TimePoint now);
-  std::size_t receive_batch(std::size_t count, TimePoint now);
-  std::size_t hand_out(std::size_t n, std::span<ReceivedCanFrame> frames, TimePoint now);
-  TimePoint read_control(msghdr& message, const Clocks& clocks, TimePoint now);
+  std::size_t hand_out(std::span<const CanArrival> arrivals, std::span<ReceivedCanFrame> frames,
+                       TimePoint now);
   TimePoint time_of(Duration stamp, const Clocks& clocks, TimePoint now);
   TimePoint monotonic() { return time_from_ns(calls_.clock_ns(CLOCK_MONOTONIC)); }
 
-  const std::string interface_;
   CanCalls& calls_;
-  std::vector<Filter> filters_;
-  int fd_ = -1;
-  int index_ = 0;
+  CanSocket socket_;
   Link link_ = Link::kGone;
   bool has_carrier_ = true;
   Duration backoff_ = {};
   TimePoint next_look_ = {};
   TimePoint emptied_ = {};  // when the socket was last known to hold no frame
-  std::uint32_t socket_drops_ = 0;
   BusHealth health_;
   CanCounters counters_;
-
-  std::array<mmsghdr, kBatch> messages_ = {};
-  std::array<iovec, kBatch> parts_ = {};
-  std::array<CanWire, kBatch> wires_ = {};
-  struct alignas(cmsghdr) Control {
-    std::array<char, kControlBytes> bytes;
-  };
-  std::array<Control, kBatch> controls_ = {};
+  std::array<CanArrival, CanSocket::kBatch> arrivals_ = {};
 };
 
 }  // namespace gannet::hal
