@@ -29,7 +29,8 @@ void describe(Visitor& v, MotorConfig& c) {
 
 void describe(Visitor& v, DriveConfig& c) {
   v.field("kind", c.kind,
-          {.choices = {"dronecan_esc", "cia402"}, .help = "The protocol that the motors speak."});
+          {.choices = {"dronecan_esc", "cia402", "vesc", "odrive"},
+           .help = "The protocol that the motors speak."});
   v.field("own_node_id", c.own_node_id,
           {.min = 1, .max = 126, .help = "Our static node id; nobody else's on that bus."});
   v.field("range", c.range,
@@ -53,6 +54,8 @@ void describe(Visitor& v, DriveConfig& c) {
   v.field("arming_status", c.arming_status,
           {.help = "Broadcasts whether the motors are enabled; some ESCs turn nothing without."});
   v.group("cia402", c.cia402, "CiA 402 drives over CANopen (drive.kind = cia402).");
+  v.group("vesc", c.vesc, "VESC controllers (drive.kind = vesc).");
+  v.group("odrive", c.odrive, "ODrive controllers over CANSimple (drive.kind = odrive).");
   v.list("motor", c.motors, "One table for each motor, in the order of the vehicle's thrusters.");
 }
 

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "hal/drive/cia402_config.hpp"
+#include "hal/drive/odrive_config.hpp"
+#include "hal/drive/vesc_config.hpp"
 #include "platform/base/describe.hpp"
 
 namespace gannet::hal {
@@ -28,6 +30,8 @@ struct DriveConfig {
   double node_timeout_s = 3;
   bool arming_status = true;
   Cia402Config cia402;
+  VescConfig vesc;
+  OdriveConfig odrive;
   std::vector<MotorConfig> motors;
 };
 

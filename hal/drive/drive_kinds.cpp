@@ -2,32 +2,31 @@
 
 #include "hal/drive/cia402_drive.hpp"
 #include "hal/drive/dronecan_esc_drive.hpp"
+#include "hal/drive/odrive_drive.hpp"
+#include "hal/drive/vesc_drive.hpp"
 
 namespace gannet::hal {
 namespace {
 
 using Made = Result<std::unique_ptr<DriveGroup>>;
 
-Made make_dronecan_esc(const DriveConfig& config) {
-  auto drive = DroneCanEscDrive::create(config);
-  if (!drive) return drive.error();
-  return Made(std::move(*drive));
-}
-
-Made make_cia402(const DriveConfig& config) {
-  auto drive = Cia402Drive::create(config);
+template <class Drive>
+Made make(const DriveConfig& config) {
+  auto drive = Drive::create(config);
   if (!drive) return drive.error();
   return Made(std::move(*drive));
 }
 
 struct Kind {
   const char* name;
-  Made (*make)(const DriveConfig&);
+  Made (*create)(const DriveConfig&);
   std::vector<CanFilter> (*wanted)(const DriveConfig&);
 };
 constexpr Kind kKinds[] = {
-    {"dronecan_esc", make_dronecan_esc, DroneCanEscDrive::wanted_frames},
-    {"cia402", make_cia402, Cia402Drive::wanted_frames},
+    {"dronecan_esc", make<DroneCanEscDrive>, DroneCanEscDrive::wanted_frames},
+    {"cia402", make<Cia402Drive>, Cia402Drive::wanted_frames},
+    {"vesc", make<VescDrive>, VescDrive::wanted_frames},
+    {"odrive", make<OdriveDrive>, OdriveDrive::wanted_frames},
 };
 
 }  // namespace
@@ -35,7 +34,7 @@ constexpr Kind kKinds[] = {
 Made make_drive_group(const DriveConfig& config) {
   std::string known;
   for (const Kind& kind : kKinds) {
-    if (config.kind == kind.name) return kind.make(config);
+    if (config.kind == kind.name) return kind.create(config);
     known += std::string(known.empty() ? "" : ", ") + kind.name;
   }
   return Error{"drive.kind '" + config.kind + "' is unknown; there are " + known};
