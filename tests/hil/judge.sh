@@ -56,3 +56,33 @@ commands_between() { commands | awk -v from="$1" -v to="${2:-9e9}" '$1 >= from &
 longest_gap() { # between commands, FROM TO
   commands | awk -v from="$1" -v to="$2" '$1 >= from && $1 < to {if (last && $1 - last > gap) gap = $1 - last; last = $1} END {printf "%.2f", gap * 1000}'
 }
+
+# What gannet-world judged itself: the scenario's CHECKS, by the kernel's stamps of the bus's frames.
+world_checks() {
+  local i=0
+  while [ -n "$(value result "checks.$i.check")" ]; do
+    check "world: $(value result "checks.$i.check"), found $(value result "checks.$i.found")" \
+      "$(value result "checks.$i.passed")" = true
+    i=$((i + 1))
+  done
+  check "checks of the world" "$i" ">" 0
+}
+
+# Of the drives' own reports (DroneCAN's esc.Status, message 1034) the greatest speed in rpm that any
+# drive told between FROM and TO; by the bytes alone.
+drives_rpm() {
+  awk -v from="$1" -v to="${2:-9e9}" 'function byte(text, i) {
+      return 16 * (index(digits, substr(text, 2 * i + 1, 1)) - 1) + index(digits, substr(text, 2 * i + 2, 1)) - 1 }
+    BEGIN {digits = "0123456789ABCDEF"; most = 0}
+    $3 ~ /^..040A/ && length($3) == 8 {
+      t = $1; gsub(/[()]/, "", t)
+      node = substr($3, 7); first = 5
+      if ($NF ~ /^[89A-F]/) { data[node] = ""; first = 7 }
+      for (i = first; i < NF; i++) data[node] = data[node] $i
+      if ($NF ~ /^[4-7C-F]/ && length(data[node]) == 28) {
+        rpm = byte(data[node], 10) + 256 * byte(data[node], 11) + 65536 * int(byte(data[node], 12) / 64)
+        if (rpm >= 131072) rpm = 262144 - rpm
+        if (t >= from && t < to && rpm > most) most = rpm
+      }
+    } END {print most}' can
+}

@@ -65,8 +65,11 @@ run_scenario() {  # NAME SEED RESULTS
   mkdir -p "$files/out"
   cp "$here"/guest/start "$here"/guest/lib.sh "$cache/poke" "$files"
   cp "$here/scenarios/$name.sh" "$files/scenario.sh"
-  cat "$here/world.toml" >"$files/scenario.toml"
-  (. "$here/scenarios/$name.sh"; echo "${EVENTS:-}") >>"$files/scenario.toml"
+  (
+    . "$here/scenarios/$name.sh"
+    sed -e "s|@CHECKS@|${CHECKS:-}|; s|@DURATION@|${DURATION:-9}|" "$here/world.toml"
+    printf '%s\n' "${EVENTS:-}" | sed -n 's/^ *\([0-9.]*\) s: \(.*\)/[[event]]\nat_s = \1\ndo = "\2"/p'
+  ) >"$files/scenario.toml"
   { echo "SEED=$seed"; echo "SHELL_WANTED=$shell"; } >>"$files/lib.sh"
   find "$files" -exec touch -h -d '2035-01-01 UTC' {} +
   disk "$files" "$results/disk.ext4"

@@ -35,7 +35,7 @@ lines_up() {
   echo 8 >$chip/bank0/num_lines
   echo rov >$chip/bank0/label
   number=0
-  for line in estop release light estop_second; do
+  for line in estop estop_second release light; do  # in the world's order
     mkdir $chip/bank0/line$number
     echo $line >$chip/bank0/line$number/name
     number=$((number + 1))
@@ -61,25 +61,17 @@ world_up() {
   cameras_up
   mkdir -p $WORLD
   gannet-world /hil/scenario.toml --live --attach $WORLD --cameras v4l2:/dev/video10,/dev/video11 \
-    --can socketcan:vcan0 --lines "gpio-sim:$LINES" --seed "$SEED" --record $OUT/world "$@" \
+    --can socketcan:vcan0 --lines "gpio-sim:$LINES" --control /run/gannet/control \
+    --seed "$SEED" --record $OUT/world "$@" \
     >$OUT/world.log 2>&1 &
   WORLD_PID=$!
-  # The service may write nowhere but into its own folders; the world looks here for its socket.
-  ln -sf /run/gannet/control $WORLD/control
   until_true 20 test -s $WORLD/gannetd.toml
   sleep 0.2
   configure $WORLD/gannetd.toml
 }
 configure() {  # FILE
   cp "$1" /etc/gannet/gannet.toml
-  cat >>/etc/gannet/gannet.toml.d/hil.toml <<'END'
-[track]
-evaluations = 800
-evaluations_tracking = 100
-model_points = 200
-[control]
-socket = "/run/gannet/control"
-END
+  [ ! -d "$1.d" ] || cp "$1".d/* /etc/gannet/gannet.toml.d
   chgrp -R gannet /etc/gannet
   chmod -R g+rX /etc/gannet
 }
@@ -87,6 +79,7 @@ daemon_up() { mark start; systemctl start gannetd; mark started; }
 
 state() { gannet status --json 2>/dev/null | jq -r .state; }
 state_is() { [ "$(state)" = "$1" ]; }
+world_ends() { wait $WORLD_PID || note "world=$?"; }
 servoing() {  # arm, and wait until it servoes
   gannet target model crab >/dev/null
   mark arm

@@ -20,5 +20,6 @@ judge() {
   check "restarts" "$(value unit NRestarts)" = 1
   check "commands to turn after it" "$(turns_between "$(plus "$(at kill)" 0.05)")" = 0
   check "standby a second later" "$(at state standby)" != ""
-  check "drives turn, by their own reports, 0.6 s after the kill" "$(turning_drives "$(plus "$(at kill)" 0.6)")" = 0
+  check "fastest drive before the kill, by its own report" "$(drives_rpm "$(plus "$(at kill)" -0.3)" "$(at kill)")" ">" 50 rpm
+  check "fastest drive from 0.8 s after the kill on" "$(drives_rpm "$(plus "$(at kill)" 0.8)")" "<" 10 rpm
 }

@@ -1,24 +1,16 @@
 # Something swims between: the ROV holds, and goes on when it sees the target again.
 EVENTS='
-[[event]]
-at_s = 6
-do = "occlude crab"
-[[event]]
-at_s = 7.5
-do = "uncover crab"
+  5 s: occlude crab
+  6.5 s: uncover crab
 '
+CHECKS='"state holding within 1000 ms of occlude crab", "state servoing within 2500 ms of uncover crab"'
 play() {
   world_up
   daemon_up
   servoing
-  wait $WORLD_PID || true
+  world_ends
 }
 judge() {
-  local lost back
-  lost=$(logged "$(at servoing)" 'track (coasting|lost)')
-  back=$(logged "${lost:-9e9}" 'holding → servoing')
-  check "loses the target" "$lost" != ""
-  check "lost to holding, full_age_s 0.3" "$(ms "$lost" "$(logged "${lost:-9e9}" 'servoing → holding')")" "<" 500 ms
-  check "servoes again" "$back" != ""
+  world_checks
   check "restarts" "$(value unit NRestarts)" = 0
 }
