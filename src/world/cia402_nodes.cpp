@@ -12,16 +12,6 @@ constexpr std::uint16_t kFaultCode = 0x4310;  // of a drive that is made faulty:
 
 }  // namespace
 
-double throttle_at_speed(double speed_rad_s) {
-  double low = 0, high = 1;  // the thruster's table only rises
-  for (int i = 0; i < 40; ++i) {
-    const double middle = (low + high) / 2;
-    const double speed = steady_speed_rad_s(std::copysign(middle, speed_rad_s));
-    (std::fabs(speed) < std::fabs(speed_rad_s) ? low : high) = middle;
-  }
-  return speed_rad_s == 0 ? 0 : std::copysign(high, speed_rad_s);
-}
-
 Cia402Nodes::Cia402Nodes(const hal::DriveConfig& drives, std::uint64_t seed)
     : throttles_(drives.motors.size()), random_(seed) {
   const double units = hal::velocity_units_per_rad_s(drives.cia402);

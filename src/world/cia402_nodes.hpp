@@ -41,7 +41,4 @@ class Cia402Nodes final : public MotorNodes {
   bool has_begun_ = false, armed_ = false;
 };
 
-// The throttle at which the plant's thruster settles at this speed.
-double throttle_at_speed(double speed_rad_s);
-
 }  // namespace gannet::world

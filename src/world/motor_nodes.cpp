@@ -2,6 +2,8 @@
 
 #include "src/world/cia402_nodes.hpp"
 #include "src/world/esc_node.hpp"
+#include "src/world/odrive_nodes.hpp"
+#include "src/world/vesc_nodes.hpp"
 
 namespace gannet::world {
 namespace {
@@ -16,6 +18,14 @@ Made make_cia402(const hal::DriveConfig& drives, std::uint64_t seed) {
   return std::make_unique<Cia402Nodes>(drives, seed);
 }
 
+Made make_vescs(const hal::DriveConfig& drives, std::uint64_t seed) {
+  return std::make_unique<VescNodes>(drives, VescBehaviour{}, seed);
+}
+
+Made make_odrives(const hal::DriveConfig& drives, std::uint64_t seed) {
+  return std::make_unique<OdriveNodes>(drives, OdriveBehaviour{}, seed);
+}
+
 struct Kind {
   const char* name;
   Made (*make)(const hal::DriveConfig&, std::uint64_t);
@@ -23,6 +33,8 @@ struct Kind {
 constexpr Kind kKinds[] = {
     {"dronecan_esc", make_escs},
     {"cia402", make_cia402},
+    {"vesc", make_vescs},
+    {"odrive", make_odrives},
 };
 
 }  // namespace

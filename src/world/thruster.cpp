@@ -60,6 +60,16 @@ double steady_speed_rad_s(double throttle) {
   return std::copysign(rpm * kRadPerSecond, throttle);
 }
 
+double throttle_at_speed(double speed_rad_s) {
+  double low = 0, high = 1;  // the thruster's table only rises
+  for (int i = 0; i < 40; ++i) {
+    const double middle = (low + high) / 2;
+    const double speed = steady_speed_rad_s(std::copysign(middle, speed_rad_s));
+    (std::fabs(speed) < std::fabs(speed_rad_s) ? low : high) = middle;
+  }
+  return speed_rad_s == 0 ? 0 : std::copysign(high, speed_rad_s);
+}
+
 double thrust_at_speed_n(double speed_rad_s) {
   const double rpm = std::abs(speed_rad_s) / kRadPerSecond;
   const auto& rows = table(speed_rad_s);

@@ -11,7 +11,9 @@ namespace gannet::world {
 
 inline constexpr double kThrusterLag_s = 0.2;
 
-double steady_speed_rad_s(double throttle);    // signed, of the rotor; 0 in the dead band
+double steady_speed_rad_s(double throttle);  // signed, of the rotor; 0 in the dead band
+// The throttle at which it settles at this speed.
+double throttle_at_speed(double speed_rad_s);
 double thrust_at_speed_n(double speed_rad_s);  // signed; odd in neither direction
 
 class Thruster {
