@@ -91,6 +91,16 @@ bool Recogniser::assign_levels(double projected_size_px, double spacing_px) {
   const int levels = fitness_->levels(target_);
   for (int l = 0; l < levels; ++l) cost[static_cast<std::size_t>(l)] = target_.cost(l);
   optimiser_->plan(config_.evaluations, {cost.data(), static_cast<std::size_t>(levels)});
+  watch_.reset(static_cast<std::uint64_t>(config_.seed));
+  watch_is_seeded_ = false;
+  random_.seed(static_cast<std::uint64_t>(config_.seed));
+  low_m_.setConstant(std::numeric_limits<double>::infinity());
+  high_m_ = -low_m_;
+  for (const vision::ModelPoint& p : points_) {
+    const Eigen::Vector2d at(static_cast<double>(p.x_m), static_cast<double>(p.y_m));
+    low_m_ = low_m_.cwiseMin(at);
+    high_m_ = high_m_.cwiseMax(at);
+  }
   has_target_ = true;
   return true;
 }
@@ -163,24 +173,36 @@ void Recogniser::note_rivals(int n) {
     const float* g = genes_.data() + i * dimension;
     const int at = cell(g[0]) + (dimension == 6 ? kRivalCells * cell(g[1]) : 0);
     Rival& rival = rivals_[static_cast<std::size_t>(at)];
-    if (scores_[i] > rival.score) rival = {scores_[i], hypotheses_[i].translation};
+    if (scores_[i] <= rival.score) continue;
+    rival = {scores_[i], hypotheses_[i].translation, {}};
+    std::copy_n(g, dimension, rival.genes.begin());
   }
 }
 
-// The best score of what is elsewhere: farther away than the target is large, or than a tenth of
-// its distance along the view.
-float Recogniser::best_rival(const vision::Hypothesis& answer) const {
+// Farther away than half of what the target is large, or than a share of its distance along the
+// view.
+bool Recogniser::elsewhere(const std::array<double, 3>& place,
+                           const vision::Hypothesis& answer) const {
   const double apart = target_.unscaled ? 0.0 : 0.5 * size_m_.maxCoeff();
+  const double dx = place[0] - answer.translation[0];
+  const double dy = place[1] - answer.translation[1];
+  const double dz = std::abs(place[2] - answer.translation[2]);
+  return target_.unscaled ? dz > 0.15 * answer.translation[2] : dx * dx + dy * dy > apart * apart;
+}
+
+float Recogniser::best_rival(const vision::Hypothesis& answer) const {
   float best = -1;
   for (const Rival& r : rivals_) {
-    const double dx = r.translation[0] - answer.translation[0];
-    const double dy = r.translation[1] - answer.translation[1];
-    const double dz = std::abs(r.translation[2] - answer.translation[2]);
-    const bool elsewhere =
-        target_.unscaled ? dz > 0.15 * answer.translation[2] : dx * dx + dy * dy > apart * apart;
-    if (elsewhere) best = std::max(best, r.score);
+    if (r.score > best && elsewhere(r.translation, answer)) best = r.score;
   }
   return best;
+}
+
+float Recogniser::score_one(const vision::PreparedFrame& frame, int level,
+                            const vision::Hypothesis& q) {
+  float score = 0;
+  fitness_->score(target_, frame, level, {&q, 1}, {&score, 1}, scratch_[0]);
+  return score;
 }
 
 void Recogniser::score_batch(const vision::PreparedFrame& frame, int level, int n,
@@ -213,10 +235,11 @@ Recognition Recogniser::recognise(const vision::PreparedFrame& frame,
   for (int l = 0; l < levels; ++l) cost[static_cast<std::size_t>(l)] = target_.cost(l);
   optimiser_->plan(wanted, {cost.data(), static_cast<std::size_t>(levels)});
 
+  watch_is_seeded_ = false;  // by what this search comes across
   std::array<float, 8> best = {};
   if (hint != nullptr) space_.encode(*hint, best);
   optimiser_->begin_frame({best.data(), hint != nullptr ? dimension : 0});
-  std::fill(rivals_.begin(), rivals_.end(), Rival{-1, {0, 0, 0}});
+  std::fill(rivals_.begin(), rivals_.end(), Rival{-1, {}, {}});
   double spent = 0;
   // The answer is scored four times more: found, refined, on the coarsest level, eye by eye.
   const double for_search = std::max(wanted - 4, 1.0);
@@ -238,6 +261,106 @@ Recognition Recogniser::recognise(const vision::PreparedFrame& frame,
   float score = 0;
   fitness_->score(target_, frame, 0, {&answer, 1}, {&score, 1}, scratch_[0]);
   return finish(frame, answer, score, spent + 1);
+}
+
+bool Recogniser::can_follow() const {
+  return has_target_ && !target_.unscaled && fitness_->levels(target_) > 1 &&
+         fitness_->needs().packed && config_.optimiser == "gannet";
+}
+
+// The best of some candidates about the hint, then refined on coarse pixels, which reach far.
+Transform<LeftCamera, Target> Recogniser::place(const vision::PreparedFrame& frame,
+                                                const Transform<LeftCamera, Target>& hint,
+                                                Parallel& parallel) {
+  constexpr int kCandidates = 24;
+  constexpr std::array<float, 6> kReach = {0.02f, 0.02f, 0.03f, 0.05f, 0.05f, 0.05f};
+  const int level = coarse_level();
+  std::array<float, 8> genes = {};
+  space_.encode(hint, genes);
+  for (std::size_t i = 0; i < kCandidates; ++i) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      const float off = i == 0 ? 0 : kReach[k] * random_.normal_f();
+      genes_[i * 6 + k] = std::clamp(genes[k] + off, 0.0f, 1.0f);
+    }
+  }
+  score_batch(frame, level, kCandidates, parallel);
+  const auto best = std::max_element(scores_.begin(), scores_.begin() + kCandidates);
+  const vision::Hypothesis& start = hypotheses_[static_cast<std::size_t>(best - scores_.begin())];
+  vision::RefineOptions options;
+  options.level = level;
+  options.iterations = 5;
+  const vision::PointSet& points = target_.level[static_cast<std::size_t>(level)];
+  const vision::Refinement refined =
+      vision::refine_pose(rig_, points, frame, start.pose(), options);
+  const vision::Hypothesis answer = vision::Hypothesis::from(refined.left_from_target);
+  return score_one(frame, level, answer) >= *best ? refined.left_from_target : start.pose();
+}
+
+Recogniser::Regions Recogniser::region(const Transform<LeftCamera, Target>& placed,
+                                       int margin_px) const {
+  Regions out;
+  constexpr double kFar = 1e9;
+  Eigen::Vector2d low[2], high[2];
+  for (const int eye : {0, 1}) low[eye].setConstant(kFar), high[eye].setConstant(-kFar);
+  for (const double x : {low_m_.x(), (low_m_.x() + high_m_.x()) / 2, high_m_.x()}) {
+    for (const double y : {low_m_.y(), (low_m_.y() + high_m_.y()) / 2, high_m_.y()}) {
+      const Eigen::Vector3d p = placed({x, y, 0});
+      for (const int eye : {0, 1}) {
+        const auto pixel =
+            eye == 0 ? rig_.left.project(p) : rig_.right.project(rig_.right_from_left(p));
+        if (!pixel || pixel->cwiseAbs().maxCoeff() > kFar) return out;
+        low[eye] = low[eye].cwiseMin(*pixel);
+        high[eye] = high[eye].cwiseMax(*pixel);
+      }
+    }
+  }
+  const auto box = [margin_px](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    const auto whole = [](double v) { return static_cast<int>(std::floor(v)); };
+    return vision::Region{whole(from.x()) - margin_px, whole(from.y()) - margin_px,
+                          whole(to.x()) + 1 + margin_px, whole(to.y()) + 1 + margin_px};
+  };
+  out = {box(low[0], high[0]), box(low[1], high[1]), true};
+  return out;
+}
+
+// The global check: a few coarse candidates in every frame.
+void Recogniser::watch(const vision::PreparedFrame& frame, const vision::Hypothesis& own,
+                       Parallel& parallel) {
+  if (!watch_is_seeded_) {
+    for (const Rival& r : rivals_) {
+      if (r.score > 0 && elsewhere(r.translation, own)) {
+        watch_.offer({r.genes.data(), RivalWatch::kGenes}, r.score);
+      }
+    }
+    watch_is_seeded_ = true;
+  }
+  std::fill(rivals_.begin(), rivals_.end(), Rival{-1, {}, {}});
+  const int n = std::clamp(config_.watch_candidates, RivalWatch::kPlaces, kBatch);
+  watch_.propose(genes_, n);
+  score_batch(frame, fitness_->levels(target_) - 1, n, parallel);
+  note_rivals(n);
+  const auto count = static_cast<std::size_t>(n);
+  watch_.learn(genes_, {scores_.data(), count},
+               [&](std::size_t i) { return !elsewhere(hypotheses_[i].translation, own); });
+}
+
+Recognition Recogniser::follow(const vision::PreparedFrame& frame,
+                               const Transform<LeftCamera, Target>& placed, bool with_watch,
+                               Parallel& parallel) {
+  const vision::Hypothesis start = vision::Hypothesis::from(placed);
+  double spent = 1;
+  if (with_watch) {
+    watch(frame, start, parallel);
+    spent += config_.watch_candidates * target_.cost(fitness_->levels(target_) - 1);
+  }
+  Recognition out = finish(frame, start, score_one(frame, 0, start), spent);
+  // A place that looks better from afar: whoever asked may want to look at it.
+  constexpr float kClearly = 0.03f;
+  if (with_watch && watch_.best_score() > static_cast<float>(out.coarse_fitness) + kClearly) {
+    out.challenged = true;
+    out.challenger = space_.decode(watch_.best()).pose();
+  }
+  return out;
 }
 
 double Recogniser::found_threshold() const {
@@ -266,7 +389,7 @@ Recognition Recogniser::finish(const vision::PreparedFrame& frame, const vision:
       target_.unscaled
           ? vision::refine_plane(rig_, points, frame, out.left_from_target, centre_ray_, options)
           : vision::refine_pose(rig_, points, frame, out.left_from_target, options);
-  bool has_covariance = refined.ok;
+  bool has_optimum = false;
   if (refined.ok) {
     const vision::Hypothesis candidate = vision::Hypothesis::from(refined.left_from_target);
     float score = 0;
@@ -275,9 +398,10 @@ Recognition Recogniser::finish(const vision::PreparedFrame& frame, const vision:
     // Nearest-pixel scores are rough by about this much.
     constexpr double kRough = 0.01;
     out.covariance = refined.covariance;
-    // The refinement knows no box; an answer outside of what was asked for is none.
-    if (static_cast<double>(score) >= out.fitness - kRough &&
-        space_.contains(refined.left_from_target)) {
+    // The refinement knows no box. Where it leads out of what was asked for there is no optimum in
+    // it: the best pose on its border is none.
+    has_optimum = space_.contains(refined.left_from_target);
+    if (static_cast<double>(score) >= out.fitness - kRough && has_optimum) {
       out.left_from_target = refined.left_from_target;
       out.fitness = static_cast<double>(score);
     }
@@ -297,7 +421,7 @@ Recognition Recogniser::finish(const vision::PreparedFrame& frame, const vision:
   const auto weaker_eye =
       static_cast<double>(fitness_->weaker_eye(target_, frame, answer, scratch_[0]));
   out.evaluations += target_.cost(fitness_->levels(target_) - 1) + 1;
-  out.found = out.fitness + margin >= found_threshold() && has_covariance &&
+  out.found = out.fitness + margin >= found_threshold() && has_optimum &&
               weaker_eye >= kEyeShare * found_threshold();
   out.reason = out.found ? TrackReason::kNone : TrackReason::kNotFound;
   out.size_m = size_m_;

@@ -4,6 +4,7 @@
 // Parallel that it is given; the answer does not depend on it).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "platform/base/result.hpp"
 #include "src/search/optimiser.hpp"
 #include "src/track/recognition.hpp"
+#include "src/track/rival_watch.hpp"
 #include "src/track/search_space.hpp"
 #include "src/track/track_config.hpp"
 #include "src/vision/fitness.hpp"
@@ -45,6 +47,25 @@ class Recogniser {
                         const Transform<LeftCamera, Target>* hint, const Budget& budget,
                         Parallel& parallel);
 
+  // The quick way, for a target that is locked and whose pose is nearly known: place() on the
+  // coarse levels, follow() at full detail. can_follow(): with this config and target.
+  // coarse_level(): the finest level that place() looks at. region(): where follow() will look, in
+  // each eye.
+  bool can_follow() const;
+  int coarse_level() const { return std::min(2, target_.levels - 1); }
+  Transform<LeftCamera, Target> place(const vision::PreparedFrame& frame,
+                                      const Transform<LeftCamera, Target>& hint,
+                                      Parallel& parallel);
+  struct Regions {
+    vision::Region left, right;
+    bool ok = false;  // all of the target is before both cameras
+  };
+  Regions region(const Transform<LeftCamera, Target>& placed, int margin_px) const;
+  // with_watch: the global check goes on, too (watch_candidates of the config).
+  Recognition follow(const vision::PreparedFrame& frame,
+                     const Transform<LeftCamera, Target>& placed, bool with_watch,
+                     Parallel& parallel);
+
   // The score of one pose, and the same for many: the fitness distribution of P001 §2.5.
   void score(const vision::PreparedFrame& frame, std::span<const vision::Hypothesis> hypotheses,
              std::span<float> scores, Parallel& parallel);
@@ -62,7 +83,10 @@ class Recogniser {
   bool assign_levels(double projected_size_px, double spacing_px);
   void score_batch(const vision::PreparedFrame& frame, int level, int n, Parallel& parallel);
   void note_rivals(int n);
+  bool elsewhere(const std::array<double, 3>& place, const vision::Hypothesis& answer) const;
   float best_rival(const vision::Hypothesis& answer) const;
+  void watch(const vision::PreparedFrame& frame, const vision::Hypothesis& own, Parallel& parallel);
+  float score_one(const vision::PreparedFrame& frame, int level, const vision::Hypothesis& q);
   Recognition finish(const vision::PreparedFrame& frame, const vision::Hypothesis& best,
                      float best_score, double evaluations);
   double found_threshold() const;
@@ -88,9 +112,14 @@ class Recogniser {
   struct Rival {
     float score;
     std::array<double, 3> translation;
+    std::array<float, 8> genes;
   };
   static constexpr int kRivalCells = 16;
   std::vector<Rival> rivals_;
+  RivalWatch watch_;
+  bool watch_is_seeded_ = false;
+  Random random_;                   // of place()
+  Eigen::Vector2d low_m_, high_m_;  // the bounding box of the points
   // Batches.
   std::vector<float> genes_;
   std::vector<vision::Hypothesis> hypotheses_;

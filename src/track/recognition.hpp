@@ -44,6 +44,9 @@ struct Recognition {
   double coarse_fitness = 0;
   double rival_fitness = 0;
   double evaluations = 0;
+  // While locked: a place elsewhere that looks better on the coarsest level.
+  bool challenged = false;
+  Transform<LeftCamera, Target> challenger;
 };
 
 }  // namespace gannet::track

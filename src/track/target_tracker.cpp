@@ -58,18 +58,24 @@ class Tracker final : public TargetTracker {
     PoseEstimate out = blank(capture_time);
     out.frame_number = frame_number;
     if (seeking_ == Seeking::kNothing) return out;
-    if (!frame_.prepare(left, right)) {
+    const std::optional<Transform<LeftCamera, Target>> predicted = predict(capture_time);
+    if (left.width != width_ || left.height != height_ || right.width != width_ ||
+        right.height != height_) {
       out.state = state_.step(false, capture_time);
       out.reason = TrackReason::kNoFrames;
       return out;
     }
-    const std::optional<Transform<LeftCamera, Target>> predicted = predict(capture_time);
-    Budget spend = budget;
-    if (spend.evaluations <= 0) {
-      spend.evaluations = state_.state() == TrackState::kLocked ? config_.evaluations_tracking
-                                                                : config_.evaluations;
+    Recognition r;
+    if (predicted && may_follow()) r = follow(left, right, *predicted, parallel);
+    if (!r.found) {
+      frame_.prepare(left, right);
+      Budget spend = budget;
+      if (spend.evaluations <= 0) {
+        spend.evaluations = state_.state() == TrackState::kLocked ? config_.evaluations_tracking
+                                                                  : config_.evaluations;
+      }
+      r = recognise(predicted ? &*predicted : nullptr, spend, parallel);
     }
-    const Recognition r = recognise(predicted ? &*predicted : nullptr, spend, parallel);
     fill(out, r);
     const bool jumped = r.found && predicted && doubted(r, *predicted);
     if (jumped) out.reason = TrackReason::kJumped;
@@ -112,6 +118,7 @@ class Tracker final : public TargetTracker {
     has_last_ = false;
     speed_.setZero();
     doubts_ = 0;
+    pause_ = 0;
   }
 
   PoseEstimate blank(TimePoint time) const {
@@ -134,6 +141,49 @@ class Tracker final : public TargetTracker {
     if (!taken) return {};
     seeking_ = Seeking::kRectangle;
     return for_rectangles_->recognise(frame_, nullptr, budget, parallel);
+  }
+
+  bool may_follow() const {
+    const bool was_seen =
+        state_.state() == TrackState::kLocked || state_.state() == TrackState::kCoasting;
+    return was_seen && seeking_ == Seeking::kModel && for_models_->can_follow();
+  }
+
+  // Only what is needed: coarse levels of all, full detail about the target. Not found: the quick
+  // way does not suffice here.
+  Recognition follow(const hal::ImageView& left, const hal::ImageView& right,
+                     const Transform<LeftCamera, Target>& predicted, Parallel& parallel) {
+    Recogniser& sut = *for_models_;
+    frame_.prepare_coarse(left, right, sut.coarse_level());
+    const auto look_at = [&](const Transform<LeftCamera, Target>& hint, bool with_watch) {
+      constexpr int kMargin = 12, kLeft = 3;  // pixels before and after the refinement
+      const auto placed = sut.place(frame_, hint, parallel);
+      const Recogniser::Regions wanted = sut.region(placed, kMargin);
+      if (!wanted.ok) return Recognition{};
+      frame_.prepare_fine(left, right, wanted.left, wanted.right);
+      Recognition r = sut.follow(frame_, placed, with_watch, parallel);
+      const Recogniser::Regions used = sut.region(r.left_from_target, kLeft);
+      r.found = r.found && used.ok && contains(wanted.left, used.left) &&
+                contains(wanted.right, used.right);
+      return r;
+    };
+    Recognition own = look_at(predicted, true);
+    if (!own.found || !own.challenged) return own;
+    // What lost is let alone for a while; what won is looked at until it is believed.
+    constexpr int kPause = 15;  // frames
+    if (pause_ > 0) {
+      --pause_;
+      return own;
+    }
+    const Recognition other = look_at(own.challenger, false);
+    constexpr double kClearly = 0.02;
+    if (other.found && other.fitness > own.fitness + kClearly) return other;
+    pause_ = kPause;
+    return own;
+  }
+
+  static bool contains(const vision::Region& a, const vision::Region& b) {
+    return b.left >= a.left && b.top >= a.top && b.right <= a.right && b.bottom <= a.bottom;
   }
 
   // The moment that depth and tilt are known the patch becomes an ordinary photo-model.
@@ -203,6 +253,7 @@ class Tracker final : public TargetTracker {
   TimePoint last_time_ = {};
   Eigen::Vector3d speed_ = Eigen::Vector3d::Zero();
   int doubts_ = 0;
+  int pause_ = 0;  // frames until a challenger may be looked at again
 };
 
 }  // namespace

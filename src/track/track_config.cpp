@@ -16,7 +16,15 @@ void describe(Visitor& v, TrackConfig& c) {
            .help = "Full stereo evaluations of one frame when the pose is not known."});
   v.field(
       "evaluations_tracking", c.evaluations_tracking,
-      {.min = 10, .max = 10000000, .help = "Full stereo evaluations of one frame while locked."});
+      {.min = 10,
+       .max = 10000000,
+       .help = "Full stereo evaluations of one frame while locked, where it does not suffice to "
+               "follow the prediction, and with other optimisers than gannet."});
+  v.field("watch_candidates", c.watch_candidates,
+          {.min = 12,
+           .max = 512,
+           .help = "Coarse candidates of one frame while locked that look for a better place "
+                   "elsewhere."});
   v.field("seed", c.seed, {.min = 0, .max = 2147483647, .help = "Of the search's random numbers."});
   v.field("model_points", c.model_points,
           {.min = 32, .max = 2000, .help = "Wanted points on a model's target (S_in)."});

@@ -12,7 +12,8 @@ struct TrackConfig {
   std::string fitness = "gannet";    // p001 | p002 | p000 | gannet
   std::string optimiser = "gannet";  // rm_ga | differential_evolution | cma_es | gannet
   int evaluations = 20000;           // full stereo evaluations from nothing
-  int evaluations_tracking = 2000;   // while locked
+  int evaluations_tracking = 2000;   // while locked, where the quick way fails
+  int watch_candidates = 160;        // coarse, a frame, while locked: the global check
   int seed = 1;
   int model_points = 800;  // wanted S_in points of a model
   // Least correlation plus lead over the best place elsewhere that counts as found: true poses

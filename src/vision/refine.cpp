@@ -258,7 +258,8 @@ Refinement refine_pose(const StereoRig& rig, const PointSet& points, const Prepa
       return out;
     }
     // Within half a standard deviation of the optimum: what is left is noise.
-    const bool there = k > 0 && step.dot(hessian * step) < 0.25 * options.shared_noise;
+    const double sigmas2 = step.dot(hessian * step) / options.shared_noise;
+    const bool there = k > 0 && sigmas2 < 0.25;
     if (k == options.iterations) {
       if (!there) return out;
       break;
@@ -272,7 +273,7 @@ Refinement refine_pose(const StereoRig& rig, const PointSet& points, const Prepa
     const Vector3d turn = step.tail<3>();
     out.left_from_target.rotation =
         (quaternion_from_rotation_vector(turn) * out.left_from_target.rotation).normalized();
-    if (there && step.norm() < options.step_stop) break;
+    if (there && sigmas2 < options.sigmas_stop * options.sigmas_stop) break;
   }
   out.ok = invert<6>(hessian, options.shared_noise, out.covariance) &&
            out.left_from_target.translation.z() > 0;
@@ -303,12 +304,13 @@ Refinement refine_plane(const StereoRig& rig, const PointSet& points, const Prep
     if (!problem.accumulate(of_eye, hessian, slope) || !solve<3>(hessian, slope, step)) {
       return out;
     }
+    const double sigmas2 = step.dot(hessian * step) / options.shared_noise;
     if (k == options.iterations) break;
     const double change = std::abs(step.dot(centre)) / plane.dot(centre);
     step *= std::min(1.0, 0.03 / std::max(change, 1e-12));
     plane += step;
     if (plane.dot(centre) <= 0) return out;
-    if (step.norm() * (1 / plane.dot(centre)) < options.step_stop) break;
+    if (k > 0 && sigmas2 < options.sigmas_stop * options.sigmas_stop) break;
   }
   Eigen::Matrix3d covariance;
   if (!invert<3>(hessian, options.shared_noise, covariance)) return out;

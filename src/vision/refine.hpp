@@ -12,8 +12,9 @@ namespace gannet::vision {
 
 struct RefineOptions {
   int iterations = 8;
-  int level = 0;                // of the pyramid
-  double step_stop = 1e-5;      // metres and radians
+  int level = 0;  // of the pyramid
+  // A last step of so many standard deviations ends it; what it leaves is a tenth of that.
+  double sigmas_stop = 0.1;
   double outside_weight = 0.3;  // of S_out's residuals: the background is only known by its mean
   // Neighbouring samples of a smoothed image share noise: what independent samples would give is
   // this much too good, as a variance.

@@ -62,8 +62,8 @@ void bt709_to_bt601(int width, std::uint8_t* y, std::uint8_t* u, std::uint8_t* v
 
 }  // namespace
 
-void unpack_row(const ImageView& image, int row, std::uint8_t* y, std::uint8_t* u,
-                std::uint8_t* v) {
+void unpack_raw_row(const ImageView& image, int row, std::uint8_t* y, std::uint8_t* u,
+                    std::uint8_t* v) {
   const int width = image.width;
   const auto line = [&](int plane, int r) { return image.plane[plane] + r * image.stride[plane]; };
   switch (image.format) {
@@ -93,10 +93,50 @@ void unpack_row(const ImageView& image, int row, std::uint8_t* y, std::uint8_t* 
       break;
     case PixelFormat::kRgb24:
       unpack_rgb(line(0, row), width, y, u, v);
-      return;
+      break;
   }
-  if (image.range == ColourRange::kLimited) limited_to_full(width, y, u, v);
-  if (image.matrix == ColourMatrix::kBt709) bt709_to_bt601(width, y, u, v);
+}
+
+void to_full_bt601(const ImageView& image, int count, std::uint8_t* y, std::uint8_t* u,
+                   std::uint8_t* v) {
+  if (image.format == PixelFormat::kRgb24) return;  // unpacked as such
+  if (image.range == ColourRange::kLimited) limited_to_full(count, y, u, v);
+  if (image.matrix == ColourMatrix::kBt709) bt709_to_bt601(count, y, u, v);
+}
+
+void unpack_row(const ImageView& image, int row, std::uint8_t* y, std::uint8_t* u,
+                std::uint8_t* v) {
+  unpack_raw_row(image, row, y, u, v);
+  to_full_bt601(image, image.width, y, u, v);
+}
+
+ImageView columns_of(const ImageView& image, int first, int width) {
+  ImageView out = image;
+  out.width = width;
+  const auto move = [&](std::size_t plane, int bytes) { out.plane[plane] += bytes; };
+  switch (image.format) {
+    case PixelFormat::kYuyv:
+    case PixelFormat::kUyvy:
+      move(0, 2 * first);
+      break;
+    case PixelFormat::kNv12:
+      move(0, first);
+      move(1, first);
+      break;
+    case PixelFormat::kYuv422:
+    case PixelFormat::kYuv420:
+      move(0, first);
+      move(1, first / 2);
+      move(2, first / 2);
+      break;
+    case PixelFormat::kYuv444:
+      for (const std::size_t plane : {0u, 1u, 2u}) move(plane, first);
+      break;
+    case PixelFormat::kRgb24:
+      move(0, 3 * first);
+      break;
+  }
+  return out;
 }
 
 }  // namespace gannet::vision

@@ -11,4 +11,13 @@ namespace gannet::vision {
 void unpack_row(const hal::ImageView& image, int row, std::uint8_t* y, std::uint8_t* u,
                 std::uint8_t* v);
 
+// The two halves of it: the bytes as they are, and any number of such pixels to full-range BT.601.
+void unpack_raw_row(const hal::ImageView& image, int row, std::uint8_t* y, std::uint8_t* u,
+                    std::uint8_t* v);
+void to_full_bt601(const hal::ImageView& image, int count, std::uint8_t* y, std::uint8_t* u,
+                   std::uint8_t* v);
+
+// The columns [first, first + width) of an image; first is even.
+hal::ImageView columns_of(const hal::ImageView& image, int first, int width);
+
 }  // namespace gannet::vision

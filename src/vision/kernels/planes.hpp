@@ -23,11 +23,16 @@ struct Stretch {
 struct PlaneKernels {
   const char* name;
 
-  // (1 4 6 4 1)/16 both ways, σ = 1 pixel; edges repeat. scratch: width + 4 cells.
+  // (1 4 6 4 1)/16 both ways, σ = 1 pixel; edges repeat. scratch: width + 4 cells. to_stride:
+  // bytes from one written row to the next.
   void (*smooth)(const std::uint8_t* from, int width, int height, std::uint16_t* scratch,
-                 std::uint8_t* to);
+                 std::uint8_t* to, int to_stride);
   // Means of 2 × 2 pixels; an odd last row or column is left out.
   void (*halve)(const std::uint8_t* from, int width, int height, std::uint8_t* to);
+  // The same for two rows of packed 4:2:2 (luma: the first byte of brightness, 0 or 1), whose
+  // chroma counts for both pixels of a pair: half_width pixels of each channel.
+  void (*halve_packed)(const std::uint8_t* top, const std::uint8_t* bottom, int half_width,
+                       int luma, std::uint8_t* y, std::uint8_t* u, std::uint8_t* v);
   // Least and largest of n >= 1 bytes.
   void (*limits)(const std::uint8_t* from, int n, std::uint8_t* low, std::uint8_t* high);
   // n cells: bytes Y U V, each stretched to 7 bits, and 1. stretch: of Y, U and V.

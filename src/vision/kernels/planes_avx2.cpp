@@ -2,6 +2,6 @@
 
 namespace gannet::vision {
 
-const PlaneKernels kAvx2PlaneKernels = {"avx2", smooth, halve, limits, pack};
+const PlaneKernels kAvx2PlaneKernels = {"avx2", smooth, halve, halve_packed, limits, pack};
 
 }  // namespace gannet::vision

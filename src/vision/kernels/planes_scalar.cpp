@@ -2,6 +2,6 @@
 
 namespace gannet::vision {
 
-const PlaneKernels kScalarPlaneKernels = {"scalar", smooth, halve, limits, pack};
+const PlaneKernels kScalarPlaneKernels = {"scalar", smooth, halve, halve_packed, limits, pack};
 
 }  // namespace gannet::vision

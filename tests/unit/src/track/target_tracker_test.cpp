@@ -66,6 +66,31 @@ TEST_F(Tracking, locks_follows_coasts_loses_and_finds_again) {
   EXPECT_EQ(see(&pose).state, TrackState::kLocked);
 }
 
+TEST_F(Tracking, a_locked_frame_costs_little_and_measures_as_well) {
+  ASSERT_TRUE(sut->choose_model(0, 7));
+  auto pose = pose_at(0.05, 0, 0.6, 5, 5, 5);
+  see(&pose);
+  for (int i = 0; i < 8; ++i) {
+    pose.translation += Eigen::Vector3d(0.004, -0.003, 0.005);
+    const PoseEstimate got = see(&pose);
+    ASSERT_TRUE(got.found);
+    if (i > 0) {
+      EXPECT_LT(got.evaluations, 100) << i;
+    }
+    EXPECT_LT((got.left_from_target.translation - pose.translation).norm(), 0.0025) << i;
+  }
+}
+
+TEST_F(Tracking, what_leaps_away_from_the_prediction_is_found_in_the_same_frame) {
+  ASSERT_TRUE(sut->choose_model(0, 7));
+  auto pose = pose_at(0.05, 0, 0.6, 5, 5, 5);
+  for (int i = 0; i < 3; ++i) see(&pose);
+  pose = pose_at(-0.03, 0.06, 0.7, -10, 5, -15);
+  const PoseEstimate got = see(&pose);
+  EXPECT_TRUE(got.found);
+  EXPECT_LT((got.left_from_target.translation - pose.translation).norm(), 0.005);
+}
+
 TEST_F(Tracking, a_rectangle_becomes_a_metric_model_and_is_followed) {
   auto pose = pose_at(0.05, -0.01, 0.6, 10, -10, 0);
   const auto centre = scene.rig.left.project(pose.translation).value();

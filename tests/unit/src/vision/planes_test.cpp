@@ -46,11 +46,14 @@ TEST_P(Planes, smooth_with_the_binomial_weights) {
   std::uint64_t seed = 1;
   for (const auto& [w, h] : kSizes) {
     const auto from = noise(w * h, seed++);
-    std::vector<std::uint8_t> to(from.size());
+    const int stride = w + 3;
+    std::vector<std::uint8_t> to(static_cast<std::size_t>(stride * h), 77);
     std::vector<std::uint16_t> scratch(static_cast<std::size_t>(w) + 4);
-    sut.smooth(from.data(), w, h, scratch.data(), to.data());
-    for (int i = 0; i < w * h; ++i) {
-      ASSERT_EQ(to[static_cast<std::size_t>(i)], smoothed(from, w, h, i % w, i / w)) << w << i;
+    sut.smooth(from.data(), w, h, scratch.data(), to.data(), stride);
+    for (int i = 0; i < stride * h; ++i) {
+      const int x = i % stride;
+      const int expected = x < w ? smoothed(from, w, h, x, i / stride) : 77;
+      ASSERT_EQ(to[static_cast<std::size_t>(i)], expected) << w << i;
     }
   }
 }
@@ -66,6 +69,24 @@ TEST_P(Planes, halve_by_the_mean_of_four) {
         int sum = 2;
         for (const int k : {0, 1, 2, 3}) sum += pixel(from, w, h, 2 * x + k % 2, 2 * y + k / 2);
         ASSERT_EQ(to[static_cast<std::size_t>(y * (w / 2) + x)], sum >> 2);
+      }
+    }
+  }
+}
+
+TEST_P(Planes, halve_packed_pixels_like_their_planes) {
+  for (const int luma : {0, 1}) {
+    for (const int half : {1, 7, 32, 45}) {
+      const auto top = noise(4 * half, 5), bottom = noise(4 * half, 6);
+      const auto n = static_cast<std::size_t>(half);
+      std::vector<std::uint8_t> y(n), u(n), v(n);
+      sut.halve_packed(top.data(), bottom.data(), half, luma, y.data(), u.data(), v.data());
+      for (std::size_t i = 0; i < n; ++i) {
+        const auto at = 4 * i + static_cast<std::size_t>(luma);
+        const auto chroma = 4 * i + 1 - static_cast<std::size_t>(luma);
+        ASSERT_EQ(y[i], (top[at] + top[at + 2] + bottom[at] + bottom[at + 2] + 2) >> 2);
+        ASSERT_EQ(u[i], (top[chroma] + bottom[chroma] + 1) >> 1);
+        ASSERT_EQ(v[i], (top[chroma + 2] + bottom[chroma + 2] + 1) >> 1);
       }
     }
   }
