@@ -16,6 +16,8 @@
 namespace gannet::world {
 namespace {
 
+constexpr double kFullSpeed_rad_s = 370;  // of the thruster at full throttle
+
 std::string camera_text(const std::string& name, const Intrinsics& camera) {
   static const char* const kDistortions[] = {"none", "brown", "fisheye"};
   static const int kCoefficients[] = {0, 5, 4};
@@ -104,9 +106,16 @@ config::DaemonConfig daemon_config(const Scenario& scenario, const RunFiles& fil
   c.vehicle.kind = scenario.vehicle.kind;
   if (scenario.vehicle.kind == "rov") {
     c.vehicle.rov = rov_config(scenario.vehicle.plant);
+    c.drive.kind = scenario.vehicle.drives;
+    const bool by_speed = c.drive.kind == "cia402" || c.drive.kind == "odrive";
+    if (by_speed) {  // and not a throttle: thrust goes with its square
+      c.vehicle.rov.curve.dead_band = 0;
+      c.vehicle.rov.curve.exponent = 2;
+    }
     const std::size_t thrusters = RovPlant(scenario.vehicle.plant).thrusters().size();
     for (int i = 0; i < static_cast<int>(thrusters); ++i)
-      c.drive.motors.push_back({.index = i, .node_id = 20 + i});
+      c.drive.motors.push_back(
+          {.index = i, .node_id = 20 + i, .full_speed_rad_s = kFullSpeed_rad_s});
   }
   return c;
 }

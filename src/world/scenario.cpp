@@ -146,6 +146,9 @@ void describe(Visitor& v, VehicleScenario& c) {
           {.size = 3, .unit = "°", .help = "How it is turned then: R = Rz·Ry·Rx."});
   v.field("current_mm_s", c.current_mm_s,
           {.size = 3, .unit = "mm/s", .help = "Of the water at the start."});
+  v.field("drives", c.drives,
+          {.choices = {"dronecan_esc", "cia402", "vesc", "odrive"},
+           .help = "What its motors speak: drive.kind of the daemon."});
   v.field("drive_delay_ms", c.drive_delay_ms,
           {.min = 0, .max = 1000, .unit = "ms", .help = "From a frame on the bus to the motor."});
   v.group("plant", c.plant, "The body and the water, BlueROV2 Heavy unless said otherwise.");

@@ -33,6 +33,7 @@ struct VehicleScenario {
   std::vector<double> start_mm = {0, 0, 0};
   std::vector<double> start_turn_deg = {0, 0, 0};
   std::vector<double> current_mm_s = {0, 0, 0};
+  std::string drives = "dronecan_esc";  // drive.kind of its motors
   double drive_delay_ms = 5;
   RovPlantConfig plant;
 };
