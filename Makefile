@@ -240,7 +240,8 @@ install: all
 	install -m 644 docs/examples/*.toml $(SHARE)/doc/gannet/examples
 	install -m 644 docs/guides/*.md $(SHARE)/doc/gannet/guides
 	for f in systemd/*.service systemd/*.slice; do \
-	  sed 's,/usr/bin/gannet,$(PREFIX)/bin/gannet,g' $$f >$(SYSTEM)/systemd/system/$${f##*/}; done
+	  sed 's,/usr/bin/gannet,$(PREFIX)/bin/gannet,g' $$f | \
+	  install -m 644 /dev/stdin $(SYSTEM)/systemd/system/$${f##*/}; done
 	install -m 644 systemd/sysusers.conf $(SYSTEM)/sysusers.d/gannet.conf
 	install -m 644 systemd/tmpfiles.conf $(SYSTEM)/tmpfiles.d/gannet.conf
 	install -m 644 systemd/udev.rules $(SYSTEM)/udev/rules.d/60-gannet.rules
