@@ -229,7 +229,7 @@ install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(SHARE)/man/man1 $(SHARE)/man/man5 $(SHARE)/man/man8 \
 	  $(SHARE)/gannet/scenarios $(SHARE)/gannet/boards $(SHARE)/gannet/assets \
 	  $(SHARE)/doc/gannet/examples $(SHARE)/doc/gannet/guides $(DESTDIR)/etc/gannet/gannet.toml.d \
-	  $(SYSTEM)/systemd/system $(SYSTEM)/sysusers.d $(SYSTEM)/tmpfiles.d $(SYSTEM)/udev/rules.d
+	  $(SYSTEM)/systemd/system $(SYSTEM)/systemd/system-preset $(SYSTEM)/sysusers.d $(SYSTEM)/tmpfiles.d $(SYSTEM)/udev/rules.d
 	install $(foreach p,$(PROGRAMS),$B/bin/$p) $(DESTDIR)$(PREFIX)/bin
 	$(STRIP) --remove-section=.comment $(foreach p,$(PROGRAMS),$(DESTDIR)$(PREFIX)/bin/$p)
 	for n in 1 5 8; do for f in docs/man/*.$$n; do [ ! -e $$f ] || \
@@ -242,6 +242,7 @@ install: all
 	for f in systemd/*.service systemd/*.slice; do \
 	  sed 's,/usr/bin/gannet,$(PREFIX)/bin/gannet,g' $$f | \
 	  install -m 644 /dev/stdin $(SYSTEM)/systemd/system/$${f##*/}; done
+	install -m 644 systemd/preset.conf $(SYSTEM)/systemd/system-preset/80-gannet.preset
 	install -m 644 systemd/sysusers.conf $(SYSTEM)/sysusers.d/gannet.conf
 	install -m 644 systemd/tmpfiles.conf $(SYSTEM)/tmpfiles.d/gannet.conf
 	install -m 644 systemd/udev.rules $(SYSTEM)/udev/rules.d/60-gannet.rules
