@@ -56,6 +56,7 @@ package() {  # NAME
     "${libdirs[@]/#/-l}" "${programs[@]/#/-e}" 2>"$work/shlibdeps.log") ||
     { cat "$work/shlibdeps.log" >&2; exit 1; }
   shlibs=${shlibs#shlibs:Depends=}
+  [ -n "$shlibs" ] || { echo "deb: no library of $name belongs to a package" >&2; exit 1; }
   size=$(du -k --apparent-size -s "$root" | cut -f1)
   fill "$here/control.$name" >"$root/DEBIAN/control"
   if [ "$name" = gannet ]; then

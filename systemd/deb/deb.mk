@@ -16,7 +16,7 @@ deb:
 
 deb-native:
 	@$(MAKE) --no-print-directory all
-	@$(call stage,$(DEB_ARCH)) >/dev/null
+	@+$(call stage,$(DEB_ARCH)) >/dev/null
 	@$(deb_env) systemd/deb/build.sh $(DEB_ARCH) build/deb/stage-$(DEB_ARCH) build/deb
 
 # Cross-built: libraries of arm64 from Debian, unpacked below build/arm64; nothing is installed.
@@ -30,7 +30,7 @@ deb-arm64:
 	@$(call need,g++-$(ARM64) dpkg-dev)
 	@systemd/deb/sysroot.sh arm64 $(SYSROOT) libpng-dev libturbojpeg0-dev libgpiod-dev libstdc++6
 	@$(MAKE) --no-print-directory all $(cross)
-	@$(call stage,arm64) $(cross) >/dev/null
+	@+$(call stage,arm64) $(cross) >/dev/null
 	@$(deb_env) systemd/deb/build.sh arm64 build/deb/stage-arm64 build/deb \
 	  $(CURDIR)/$(SYSROOT)/dpkg $(CURDIR)/$(SYSROOT)/tree/lib/$(ARM64) $(CURDIR)/$(SYSLIB)
 .PHONY: deb deb-native deb-arm64

@@ -27,7 +27,7 @@ for deb in "$dir"/apt/cache/archives/*.deb; do
   esac
   dpkg-deb -x "$deb" "$dir/tree"
   # What dpkg would have written, with the paths where the files really are.
-  info=$dir/dpkg/info/$name:$arch
+  info=$dir/dpkg/info/$name
   dpkg-deb --fsys-tarfile "$deb" | tar -t | sed -e 's|/$||' -e "s|^\.|$dir/tree|" >"$info.list"
   mkdir "$dir/control"
   dpkg-deb -e "$deb" "$dir/control"
