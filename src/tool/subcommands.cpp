@@ -5,6 +5,9 @@
 #include <vector>
 
 #include "hal/drive/cia402_objects.hpp"
+#include "hal/drive/dronecan_names.hpp"
+#include "hal/drive/odrive_messages.hpp"
+#include "hal/drive/vesc_messages.hpp"
 #include "platform/base/nearest_word.hpp"
 #include "src/config/daemon_config.hpp"
 #include "src/config/rig_file.hpp"
@@ -71,6 +74,9 @@ int print_reference(const std::string& name) {
   if (name == "gannet.toml.5") text = config::config_man_page();
   if (name == "gannet.toml.md") text = config::config_markdown();
   if (name == "gannet-cia402.eds") text = hal::cia402::eds_text();
+  if (name == "vesc.dbc") text = hal::vesc::dbc_text();
+  if (name == "odrive.dbc") text = hal::odrive::dbc_text();
+  if (name == "dronecan.md") text = hal::dronecan::reference_text();
   if (name == "rig.md")
     text =
         "# RIG files\n\nThe calibration of two cameras. The keys of [left], [right] and "

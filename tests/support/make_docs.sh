@@ -16,3 +16,6 @@ done
 "$bin/gannet" --reference gannet.toml.md >"$out/reference/gannet.toml.md"
 "$bin/gannet" --reference rig.md >"$out/reference/rig.md"
 "$bin/gannet" --reference gannet-cia402.eds >"$out/reference/gannet-cia402.eds"
+for name in vesc.dbc odrive.dbc dronecan.md; do
+  "$bin/gannet" --reference "$name" >"$out/reference/$name"
+done

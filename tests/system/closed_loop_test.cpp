@@ -64,6 +64,8 @@ TEST(ClosedLoop, comes_to_a_still_target) { expect_all_passed("rov_still"); }
 TEST(ClosedLoop, obeys_the_estop) { expect_all_passed("rov_estop"); }
 TEST(ClosedLoop, loses_and_finds_its_target) { expect_all_passed("rov_lost_and_found"); }
 TEST(ClosedLoop, stops_when_a_drive_is_silent) { expect_all_passed("rov_drive_silent"); }
+TEST(ClosedLoop, servoes_by_vescs_and_stops_when_one_is_silent) { expect_all_passed("rov_vesc"); }
+TEST(ClosedLoop, servoes_by_odrives_and_resets_a_fault) { expect_all_passed("rov_odrive"); }
 TEST(ClosedLoop, servoes_by_cia402_drives_and_stops_at_a_fault) { expect_all_passed("rov_cia402"); }
 TEST(ClosedLoop, holds_while_the_cameras_are_blind) { expect_all_passed("rov_camera_blind"); }
 
