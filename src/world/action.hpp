@@ -1,11 +1,9 @@
-// Action: what an event of a scenario does, read from a line as a person writes it:
-//   press estop · release estop · cut estop (the line is not readable) · arm · disarm · reset ·
-//   stop target NAME · target none · goal X Y Z (mm) · blind · see · drop SHARE · occlude NAME ·
-//   uncover NAME · silence drive N · fault drive N · jam drive N · mend drive N · light LUX ·
-//   current X Y Z (mm/s)
-// Positions in Σ_H; drives count from 1, as ArduSub counts motors. Start-up only.
+// Action: what an event of a scenario does, read from a line as a person writes it; action_forms()
+// lists the lines and what they mean. Positions in Σ_H; drives count from 1, as ArduSub counts
+// motors. Start-up only.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +31,21 @@ enum class Verb {
   kFaultDrive,
   kJamDrive,
   kMendDrive,
+  kLateDrive,
+  kGarbageDrive,
+  kFreezeCamera,
+  kBackwardStamps,
+  kShortFrames,
+  kFlagFrames,
+  kLateLeft,
+  kLateRight,
+  kSkewLeft,
+  kSkewRight,
+  kMendCamera,
+  kBusOff,
+  kBusPassive,
+  kBusDown,
+  kBusUp,
   kLight,
   kCurrent,
 };
@@ -48,6 +61,14 @@ struct Action {
 
 // Error: no such action, with the nearest; a number that is none.
 Result<Action> parse_action(std::string_view text);
+
+struct ActionForm {
+  std::string_view words;      // "goal"
+  std::string_view arguments;  // "X Y Z", a word each; "": none
+  std::string_view meaning;
+  Verb verb;
+};
+std::span<const ActionForm> action_forms();
 
 // Words between blanks.
 std::vector<std::string> words_of(std::string_view text);

@@ -5,22 +5,18 @@
 namespace gannet::world {
 
 Result<std::unique_ptr<Cameras>> Cameras::create(const Config& config, Renderer renderer,
+                                                 std::unique_ptr<FrameSink> sink,
                                                  Parallel& parallel) {
-  hal::SharedFramesFormat format;
-  format.width = renderer.rig().left.width;
-  format.height = renderer.rig().left.height;
-  auto writer = hal::SharedFramesWriter::create(config.shared_name, format);
-  if (!writer) return writer.error();
   auto kept = KeptFrames::create(config.keep_folder, config.keep_every);
   if (!kept) return kept.error();
   return std::unique_ptr<Cameras>(
-      new Cameras(config, std::move(*writer), std::move(*kept), std::move(renderer), parallel));
+      new Cameras(config, std::move(sink), std::move(*kept), std::move(renderer), parallel));
 }
 
-Cameras::Cameras(const Config& config, hal::SharedFramesWriter writer, KeptFrames kept,
+Cameras::Cameras(const Config& config, std::unique_ptr<FrameSink> sink, KeptFrames kept,
                  Renderer renderer, Parallel& parallel)
     : config_(config),
-      writer_(std::move(writer)),
+      sink_(std::move(sink)),
       kept_(std::move(kept)),
       renderer_(std::move(renderer)),
       parallel_(parallel),
@@ -52,7 +48,9 @@ void Cameras::expose(TimePoint now, double time_s, const Scene& scene,
     ++counters_.lost;
     return;
   }
-  job_ = {now, time_s, scene, world_from_left, exposed_};
+  if (!faults_.frozen || job_.number == 0)
+    job_ = {now, {}, time_s, scene, world_from_left, exposed_};
+  job_.times = faults_.times(job_.capture, now, config_.latency);
   if (config_.in_background) {
     has_job_ = true;
     wake_.notify_one();
@@ -62,22 +60,21 @@ void Cameras::expose(TimePoint now, double time_s, const Scene& scene,
 }
 
 bool Cameras::draw(const Job& job) {
-  const auto images = writer_.begin_frame();
+  const auto images = sink_->begin_frame();
   if (!images) return false;
   const Intrinsics& camera = renderer_.rig().left;
-  const hal::SharedFramesFormat format;
   const auto target = [&](std::span<std::uint8_t> bytes) {
-    return target_of(writer_.layout(), bytes.data(), format.format, camera.width, camera.height,
-                     format.matrix, format.range);
+    return target_of(sink_->layout(), bytes.data(), FrameSink::kFormat, camera.width, camera.height,
+                     FrameSink::kMatrix, FrameSink::kRange);
   };
   renderer_.render(job.scene, job.world_from_left, job.time_s, job.number, parallel_,
                    target(images->left), target(images->right));
   const auto view = [&](std::span<const std::uint8_t> bytes) {
-    return hal::view_of(writer_.layout(), bytes.data(), format.format, camera.width, camera.height,
-                        format.matrix, format.range);
+    return hal::view_of(sink_->layout(), bytes.data(), FrameSink::kFormat, camera.width,
+                        camera.height, FrameSink::kMatrix, FrameSink::kRange);
   };
   kept_.take(job.number, job.time_s, view(images->left), view(images->right));
-  writer_.publish(job.capture, job.capture + config_.latency);
+  sink_->publish(job.times);
   return true;
 }
 

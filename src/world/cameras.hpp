@@ -1,6 +1,6 @@
-// Cameras: the simulated pair of the daemon's camera kind "simulated": at each due time renders
-// what both see into shared memory, with the time of exposure and the later one from which it may
-// be seen. Frames can be withheld (blind) or dropped at random. World's thread alone; stepped, the
+// Cameras: the simulated pair: at each due time renders what both see into a FrameSink, with the
+// time of exposure and the later one at which the daemon may see it. Frames can be withheld
+// (blind), dropped at random, or be faulty (camera_faults.hpp). World's thread alone; stepped, the
 // work is done within the call; live, on a thread of its own, and a pair that comes before the last
 // is done is lost, as a slow camera loses it.
 #pragma once
@@ -11,10 +11,11 @@
 #include <string>
 #include <thread>
 
-#include "hal/camera/shared_frames.hpp"
 #include "platform/base/parallel.hpp"
 #include "platform/base/random.hpp"
 #include "platform/base/time.hpp"
+#include "src/world/camera_faults.hpp"
+#include "src/world/frame_sink.hpp"
 #include "src/world/kept_frames.hpp"
 #include "src/world/renderer.hpp"
 
@@ -29,7 +30,6 @@ struct CameraCounters {
 class Cameras {
  public:
   struct Config {
-    std::string shared_name;  // of the shared memory
     Duration period = {};
     Duration latency = {};
     bool in_background = false;  // live
@@ -37,8 +37,9 @@ class Cameras {
     std::string keep_folder = {};  // of pairs that are kept as files (kept_frames.hpp)
     int keep_every = 0;            // 0: none
   };
-  // parallel is borrowed. Error: no shared memory, no folder for kept pairs.
+  // parallel is borrowed. Error: no folder for kept pairs.
   static Result<std::unique_ptr<Cameras>> create(const Config& config, Renderer renderer,
+                                                 std::unique_ptr<FrameSink> sink,
                                                  Parallel& parallel);
   ~Cameras();
 
@@ -51,23 +52,26 @@ class Cameras {
   void start(TimePoint first) { next_ = first; }
   void set_blind(bool blind) { blind_ = blind; }
   void set_drop_share(double share) { drop_share_ = share; }
+  CameraFaults& faults() { return faults_; }  // from the next exposure on
+  FrameSinkAbilities abilities() const { return sink_->abilities(); }
   CameraCounters counters() const;
 
  private:
   struct Job {
     TimePoint capture;
+    PairTimes times;
     double time_s = 0;
     Scene scene;
     Transform<World, LeftCamera> world_from_left;
     std::uint64_t number = 0;
   };
-  Cameras(const Config& config, hal::SharedFramesWriter writer, KeptFrames kept, Renderer renderer,
+  Cameras(const Config& config, std::unique_ptr<FrameSink> sink, KeptFrames kept, Renderer renderer,
           Parallel& parallel);
   bool draw(const Job& job);
   void work();
 
   const Config config_;
-  hal::SharedFramesWriter writer_;
+  std::unique_ptr<FrameSink> sink_;
   KeptFrames kept_;
   Renderer renderer_;
   Parallel& parallel_;
@@ -75,12 +79,13 @@ class Cameras {
   TimePoint next_ = {};
   bool blind_ = false;
   double drop_share_ = 0;
+  CameraFaults faults_;
   std::uint64_t exposed_ = 0;
 
   // Live alone: the job is handed over under the lock.
   mutable std::mutex mutex_;
   std::condition_variable wake_;
-  Job job_;
+  Job job_;  // stays after it is done: a frozen camera repeats it
   bool has_job_ = false;
   bool stop_ = false;
   CameraCounters counters_;

@@ -9,6 +9,7 @@
 
 #include "platform/base/command_line.hpp"
 #include "src/world/action.hpp"
+#include "src/world/reactions.hpp"
 
 namespace gannet::world {
 namespace {
@@ -171,29 +172,6 @@ double releases(const Trace& trace, const Window& window) {
   return count;
 }
 
-bool still(const TraceRow& row) {
-  return !row.armed &&
-         std::all_of(row.throttle.begin(), row.throttle.end(), [](double t) { return t == 0; });
-}
-
-// From the event to the first moment at which the drives are disarmed and told to stop, provided
-// that they stay so as long as the e-stop is pressed; ms.
-double stop_ms(const Trace& trace, const std::string& event) {
-  const double start = trace.time_of(event);
-  if (start < 0) return kNothing;
-  double since = kNothing;
-  for (const TraceRow& row : trace.rows) {
-    if (row.time_s < start) continue;
-    if (still(row)) {
-      if (std::isnan(since)) since = row.time_s;
-    } else if (!std::isnan(since)) {
-      if (row.estop) return kNothing;  // it moved again
-      break;
-    }
-  }
-  return 1000 * (since - start);
-}
-
 std::string state_at(const Trace& trace, double time_s) {
   std::string state = "nothing heard";
   for (const TraceRow& row : trace.rows)
@@ -217,6 +195,10 @@ Error not_understood(std::string_view text, const std::string& why) {
   return Error{"check '" + std::string(text) + "': " + why};
 }
 
+bool is_comparison(const std::string& word) {
+  return word.size() == 1 && std::string("<>=").find(word) != std::string::npos;
+}
+
 // "after 3 s", "until 8 s", "at 5 s" …
 bool read_window(const std::vector<std::string>& words, std::size_t at, Window& window) {
   while (at + 2 < words.size() && words[at + 2] == "s") {
@@ -233,28 +215,78 @@ bool read_window(const std::vector<std::string>& words, std::size_t at, Window& 
   return at == words.size();
 }
 
+// "within 20 ms of press estop", from words[at]. False: not of that form.
+bool read_within(const std::vector<std::string>& words, std::size_t at, Check& check) {
+  const auto limit = words.size() > at + 4 ? number_from_text(words[at + 1]) : std::nullopt;
+  if (!limit || words[at] != "within" || words[at + 2] != "ms" || words[at + 3] != "of")
+    return false;
+  check.limit = *limit;
+  for (std::size_t i = at + 4; i < words.size(); ++i)
+    check.event += (check.event.empty() ? "" : " ") + words[i];
+  return true;
+}
+
 Result<Check> parse_permit(const std::vector<std::string>& words, std::string_view text,
                            Check check) {
-  const auto limit = words.size() > 6 ? number_from_text(words[3]) : std::nullopt;
-  if (!limit || words[1] != "none" || words[2] != "within" || words[4] != "ms" || words[5] != "of")
-    return not_understood(text, "the form is 'permit none within 20 ms of press estop'");
   check.kind = Check::Kind::kPermitNone;
-  check.limit = *limit;
-  for (std::size_t i = 6; i < words.size(); ++i) check.word += (i > 6 ? " " : "") + words[i];
-  const auto action = parse_action(check.word);
-  if (!action) return not_understood(text, action.error().text);
+  if (words.size() < 2 || words[1] != "none" || !read_within(words, 2, check))
+    return not_understood(text, "the form is 'permit none within 20 ms of press estop'");
   return check;
 }
 
 Result<Check> parse_state(const std::vector<std::string>& words, std::string_view text,
                           Check check) {
+  check.word = words.size() > 2 ? words[words[1] == "is" ? 2 : 1] : "";
+  if (read_within(words, 2, check)) {
+    check.kind = Check::Kind::kStateWithin;
+    return check;
+  }
   const auto time = words.size() == 6 ? number_from_text(words[4]) : std::nullopt;
   if (!time || words[1] != "is" || words[3] != "at" || words[5] != "s")
-    return not_understood(text, "the form is 'state is stopped at 5 s'");
+    return not_understood(text,
+                          "the forms are 'state is stopped at 5 s' and 'state stopped within "
+                          "20 ms of press estop'");
   check.kind = Check::Kind::kState;
-  check.word = words[2];
   check.window.from_s = *time;
   return check;
+}
+
+Result<Check> parse_counted(const std::vector<std::string>& words, std::string_view text,
+                            Check check) {
+  const auto limit = words.size() == 4 ? number_from_text(words[3]) : std::nullopt;
+  if (!limit || !is_comparison(words[2]))
+    return not_understood(text, "the form is 'counted camera_broken > 5'");
+  check.kind = Check::Kind::kCounted;
+  check.word = words[1];
+  check.comparison = words[2][0];
+  check.limit = *limit;
+  return check;
+}
+
+Result<Check> parse_measure(const std::vector<std::string>& words, std::string_view text,
+                            Check check) {
+  check.measure = find_measure(words[0]);
+  if (check.measure == nullptr) {
+    std::string names;
+    for (const Measure& measure : measures()) names += std::string(" ") + measure.name;
+    return not_understood(text, "'" + words[0] + "' is no measure; there are:" + names);
+  }
+  const auto limit = words.size() > 2 ? number_from_text(words[2]) : std::nullopt;
+  if (!limit || !is_comparison(words[1]) || !read_window(words, 3, check.window))
+    return not_understood(text, "the form is 'rms_x_mm < 10 after 10 s until 20 s'");
+  check.comparison = words[1][0];
+  check.limit = *limit;
+  return check;
+}
+
+bool holds(const Check& check, double value) {
+  return check.comparison == '<'   ? value < check.limit
+         : check.comparison == '>' ? value > check.limit
+                                   : value == check.limit;
+}
+
+Verdict judge_time(const Check& check, double ms) {
+  return {check.text, std::isnan(ms) ? "never" : number(ms) + " ms", ms <= check.limit};
 }
 
 }  // namespace
@@ -287,37 +319,37 @@ Result<Check> parse_check(std::string_view text) {
   Check check;
   for (const std::string& word : words) check.text += (check.text.empty() ? "" : " ") + word;
   if (words.empty()) return not_understood(text, "it is empty");
-  if (words[0] == "permit") return parse_permit(words, text, check);
-  if (words[0] == "state") return parse_state(words, text, check);
-  check.measure = find_measure(words[0]);
-  if (check.measure == nullptr) {
-    std::string names;
-    for (const Measure& measure : measures()) names += std::string(" ") + measure.name;
-    return not_understood(text, "'" + words[0] + "' is no measure; there are:" + names);
-  }
-  const auto limit = words.size() > 2 ? number_from_text(words[2]) : std::nullopt;
-  if (!limit || words[1].size() != 1 || std::string("<>=").find(words[1]) == std::string::npos ||
-      !read_window(words, 3, check.window))
-    return not_understood(text, "the form is 'rms_x_mm < 10 after 10 s until 20 s'");
-  check.comparison = words[1][0];
-  check.limit = *limit;
-  return check;
+  auto parsed = words[0] == "permit"    ? parse_permit(words, text, check)
+                : words[0] == "state"   ? parse_state(words, text, check)
+                : words[0] == "counted" ? parse_counted(words, text, check)
+                                        : parse_measure(words, text, check);
+  if (!parsed || parsed->event.empty()) return parsed;
+  const auto action =
+      is_noticed(parsed->event) ? Result<Action>(Action{}) : parse_action(parsed->event);
+  if (!action) return not_understood(text, action.error().text);
+  return parsed;
 }
 
 Verdict judge(const Check& check, const Trace& trace) {
-  if (check.kind == Check::Kind::kState) {
-    const std::string state = state_at(trace, check.window.from_s);
-    return {check.text, state, state == check.word};
-  }
-  if (check.kind == Check::Kind::kPermitNone) {
-    const double ms = stop_ms(trace, check.word);
-    return {check.text, std::isnan(ms) ? "never" : number(ms) + " ms", ms <= check.limit};
+  switch (check.kind) {
+    case Check::Kind::kState: {
+      const std::string state = state_at(trace, check.window.from_s);
+      return {check.text, state, state == check.word};
+    }
+    case Check::Kind::kPermitNone:
+      return judge_time(check, stop_ms(trace, check.event));
+    case Check::Kind::kStateWithin:
+      return judge_time(check, state_ms(trace, check.event, check.word));
+    case Check::Kind::kCounted: {
+      const auto counter = trace.counters.find(check.word);
+      if (counter == trace.counters.end()) return {check.text, "not counted", false};
+      return {check.text, number(counter->second), holds(check, counter->second)};
+    }
+    case Check::Kind::kMeasure:
+      break;
   }
   const double value = check.measure->value(trace, check.window);
-  const bool passed = check.comparison == '<'   ? value < check.limit
-                      : check.comparison == '>' ? value > check.limit
-                                                : value == check.limit;
-  return {check.text, number(value), passed};
+  return {check.text, number(value), holds(check, value)};
 }
 
 }  // namespace gannet::world

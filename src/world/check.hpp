@@ -2,8 +2,10 @@
 //   settle_s < 6
 //   rms_x_mm < 10 after 10 s
 //   throttle = 0 after 4.1 s until 8 s
-//   permit none within 20 ms of press estop
+//   permit none within 20 ms of press estop    the drives are still, by the frames on the bus
 //   state is stopped at 5 s
+//   state faulted within 600 ms of bus off     as soon as the world heard of it
+//   counted camera_broken > 5                  a counter of the daemon (gannet top), at the end
 // Measures are listed in check.cpp with their meaning. Pure; any thread.
 #pragma once
 
@@ -31,14 +33,15 @@ struct Measure {
 const std::vector<Measure>& measures();
 
 struct Check {
-  enum class Kind { kMeasure, kPermitNone, kState };
+  enum class Kind { kMeasure, kPermitNone, kState, kStateWithin, kCounted };
   Kind kind = Kind::kMeasure;
   std::string text;  // as written, single spaces
   const Measure* measure = nullptr;
   char comparison = '<';  // < > =
-  double limit = 0;       // in the measure's unit; ms of kPermitNone
+  double limit = 0;       // in the measure's unit; ms of kPermitNone and kStateWithin
   Window window;
-  std::string word;  // the event of kPermitNone, the state of kState
+  std::string word;   // the state, or the counter
+  std::string event;  // of kPermitNone and kStateWithin
 };
 
 struct Verdict {

@@ -12,12 +12,33 @@
 #include "src/report/progress.hpp"
 #include "src/world/assets.hpp"
 #include "src/world/daemon_process.hpp"
+#include "src/world/reactions.hpp"
 #include "src/world/run_record.hpp"
 #include "src/world/scenario.hpp"
 #include "src/world/simulation.hpp"
 
 namespace gannet::world {
 namespace {
+
+std::string events_help() {
+  std::string text;
+  for (const ActionForm& form : action_forms()) {
+    text += (text.empty() ? "" : "; ") + std::string(form.words);
+    if (!form.arguments.empty()) text += " " + std::string(form.arguments);
+    if (!form.meaning.empty()) text += " (" + std::string(form.meaning) + ")";
+  }
+  return text + ".";
+}
+
+std::string measures_help() {
+  std::string text;
+  for (const Measure& measure : measures())
+    text += std::string(measure.name) + " (" + measure.meaning + "); ";
+  return text +
+         "or 'permit none within 20 ms of press estop' (the drives are told to stand still), "
+         "'state faulted within 600 ms of bus off' or 'of daemon gone', 'state is stopped at 5 s', "
+         "'counted can_restarts = 1' (a counter of gannet top, at the end).";
+}
 
 Command command() {
   return {
@@ -27,7 +48,11 @@ Command command() {
           "Simulates vehicle, water, cameras and motors of a scenario, starts gannetd in it and "
           "judges what came of it. The daemon hears of the world only by frames, CAN, lines and, "
           "in stepped time, the step socket.\n\nIn stepped time everything repeats bit for bit "
-          "however busy the machine is; live, the daemon's threads run by the clock.",
+          "however busy the machine is; live, the daemon's threads run by the clock.\n\n"
+          "Live, its devices can be the kernel's own: --cameras, --can and --lines. Reaction "
+          "times are then taken from the stamps that the kernel gave the frames on the bus.\n\n"
+          "Events of a scenario: " +
+          events_help() + "\n\nMeasures of its checks: " + measures_help(),
       .options =
           {{.name = "stepped", .kind = ArgumentKind::kFlag, .help = "Stepped time, the default."},
            {.name = "live", .kind = ArgumentKind::kFlag, .help = "The machine's own time."},
@@ -64,8 +89,25 @@ Command command() {
             .help = "The daemon; the one beside this program if absent."},
            {.name = "attach",
             .value = "DIR",
-            .help = "Start no daemon: make DIR, write gannetd.toml into it, and wait for "
-                    "'gannetd -c DIR/gannetd.toml'."},
+            .help = "Start no daemon: make DIR, write gannetd.toml, its drop-in with the "
+                    "scenario's settings, rig and models into it, and wait for 'gannetd -c "
+                    "DIR/gannetd.toml'. Live, the run goes on when that daemon dies, and with "
+                    "the one that is started after it."},
+           {.name = "control",
+            .value = "PATH",
+            .help = "The daemon's control socket; one in the run's folder if absent."},
+           {.name = "cameras",
+            .value = "v4l2:LEFT,RIGHT",
+            .help = "With --live: two devices of v4l2loopback in the place of shared memory."},
+           {.name = "can",
+            .value = "socketcan:INTERFACE",
+            .help = "With --live: an interface such as vcan0 in the place of a local bus. 'bus "
+                    "down' and 'bus up' need CAP_NET_ADMIN."},
+           {.name = "lines",
+            .value = "gpio-sim:DIR",
+            .help = "With --live: the sysfs folder of a chip of gpio-sim, with sim_gpio0 "
+                    "(e-stop), 1 (its second contact), 2 (release) and 3 (light), in the place of "
+                    "a mapped file."},
            {.name = "assets",
             .value = "DIR",
             .help = "The photographs; $GANNET_ASSETS or build/assets if absent."}},
@@ -127,6 +169,12 @@ int run(const Arguments& arguments, const std::string& program) {
   else
     options.patience = std::chrono::minutes(10);
 
+  const auto ends =
+      parse_ends(arguments.text("cameras"), arguments.text("can"), arguments.text("lines"));
+  if (!ends) return fail(2, ends.error().text);
+  options.ends = *ends;
+  options.control = arguments.text("control");
+
   auto simulation = Simulation::create(*scenario, options);
   if (!simulation) return fail(3, simulation.error().text);
   std::printf("%s: %s\n", scenario->name.c_str(), scenario->description.c_str());
@@ -155,7 +203,8 @@ int run(const Arguments& arguments, const std::string& program) {
     show_log((*simulation)->files());
     return fail(3, result.error().text);
   }
-  std::printf("%s\n%s\n", result_table(*result).c_str(), timing_table(*result).c_str());
+  std::printf("%s\n%s\n%s\n", result_table(*result).c_str(), reactions_table(result->trace).c_str(),
+              timing_table(*result).c_str());
   std::printf("%s: %s after %.1f s of simulated and %.1f s of real time\n", scenario->name.c_str(),
               result->passed() ? "passed" : "FAILED", scenario->duration_s, result->host_s);
   return result->passed() ? 0 : 1;

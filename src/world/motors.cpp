@@ -1,5 +1,7 @@
 #include "src/world/motors.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 
 namespace gannet::world {
@@ -10,44 +12,58 @@ constexpr double kBatteryResistance_ohm = 0.01;
 
 }  // namespace
 
-Result<std::unique_ptr<Motors>> Motors::create(const std::string& bus,
+Result<std::unique_ptr<Motors>> Motors::create(std::unique_ptr<CanEnd> bus,
                                                const hal::DriveConfig& drives, Duration delay,
                                                std::uint64_t seed) {
-  auto hub = hal::LocalCanHub::listen(bus);
-  if (!hub) return hub.error();
   auto nodes = make_motor_nodes(drives, seed);
   if (!nodes) return nodes.error();
-  return std::unique_ptr<Motors>(new Motors(std::move(*hub), std::move(*nodes), delay));
+  return std::unique_ptr<Motors>(new Motors(std::move(bus), std::move(*nodes), delay));
 }
 
-Motors::Motors(std::unique_ptr<hal::LocalCanHub> hub, std::unique_ptr<MotorNodes> nodes,
-               Duration delay)
-    : hub_(std::move(hub)),
+Motors::Motors(std::unique_ptr<CanEnd> bus, std::unique_ptr<MotorNodes> nodes, Duration delay)
+    : bus_(std::move(bus)),
       nodes_(std::move(nodes)),
       delay_(delay),
       throttles_(static_cast<std::size_t>(nodes_->motors()), 0.0) {}
 
 void Motors::step(TimePoint now, RovPlant& plant) {
   receive(now);
-  heard_.clear();
-  while (!delayed_.empty() && delayed_.front().due <= now) {
-    heard_.push_back(delayed_.front().frame);
-    delayed_.pop_front();
-  }
   report(plant);
   said_.clear();
-  const std::span<const double> throttles = nodes_->step(now, heard_, said_);
-  throttles_.assign(throttles.begin(), throttles.end());
+  TimePoint reached = last_step_;
+  while (!delayed_.empty() && delayed_.front().due <= now) {
+    reached = delayed_.front().due;
+    heard_.clear();
+    for (; !delayed_.empty() && delayed_.front().due == reached; delayed_.pop_front())
+      heard_.push_back(delayed_.front().frame);
+    obey(reached, reached - delay_);
+  }
+  heard_.clear();
+  if (reached < now) obey(now, now);
+  last_step_ = now;
   plant.command(throttles_);
-  hub_->send(said_, now);
+  bus_->send(said_, now);
+}
+
+// told: when the bus had what was heard.
+void Motors::obey(TimePoint due, TimePoint told) {
+  const std::span<const double> throttles = nodes_->step(due, heard_, said_);
+  throttles_.assign(throttles.begin(), throttles.end());
+  const bool still = !nodes_->armed() && std::all_of(throttles_.begin(), throttles_.end(),
+                                                     [](double t) { return t == 0; });
+  if (turns_.empty() || turns_.back().still != still) turns_.push_back({told, still});
 }
 
 void Motors::receive(TimePoint now) {
   std::array<hal::ReceivedCanFrame, 64> frames;
   while (true) {
-    const int count = hub_->receive(frames, now);
-    for (int i = 0; i < count; ++i)
-      delayed_.push_back({now + delay_, frames[static_cast<std::size_t>(i)].frame});
+    const int count = bus_->receive(frames, now);
+    for (const hal::ReceivedCanFrame& received :
+         std::span(frames).first(static_cast<std::size_t>(count))) {
+      // In order and never before what the nodes have lived through: stamps are the kernel's.
+      const TimePoint least = delayed_.empty() ? last_step_ : delayed_.back().due;
+      delayed_.push_back({std::max(received.time + delay_, least), received.frame});
+    }
     if (count < static_cast<int>(frames.size())) return;
   }
 }

@@ -1,27 +1,33 @@
-// Motors: what hangs on the simulated bus: the hub that the daemon connects to, the motor nodes
-// of the vehicle behind a delay. World's thread alone.
+// Motors: what hangs on the simulated vehicle's bus: the motor nodes behind a delay. Nodes obey
+// each frame at its own time on the bus plus the delay, also when several came between two steps.
+// World's thread alone.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "hal/can/local_bus.hpp"
 #include "hal/drive/drive_config.hpp"
+#include "src/world/can_end.hpp"
 #include "src/world/motor_nodes.hpp"
 #include "src/world/rov_plant.hpp"
 
 namespace gannet::world {
 
+// From then on the drives are still (disarmed, and none told to turn) or not: the time on the bus
+// of the frame that told them, or of the node's own decision when commands stay away.
+struct Turn {
+  TimePoint time;
+  bool still;
+};
+
 class Motors {
  public:
-  // delay: from a frame on the bus to the node that hears it. Error: the bus's name is in use, or
-  // nothing here speaks drive.kind.
-  static Result<std::unique_ptr<Motors>> create(const std::string& bus,
+  // delay: from a frame on the bus to the node that hears it. Error: nothing here speaks
+  // drive.kind.
+  static Result<std::unique_ptr<Motors>> create(std::unique_ptr<CanEnd> bus,
                                                 const hal::DriveConfig& drives, Duration delay,
                                                 std::uint64_t seed);
 
@@ -32,26 +38,29 @@ class Motors {
   // Throttles −1 … 1 as the nodes obey them, by the vehicle's sign.
   std::span<const double> throttles() const { return throttles_; }
   bool armed() const { return nodes_->armed(); }
-  bool connected() const { return hub_->nodes() > 0; }
+  CanEnd& bus() { return *bus_; }
   MotorFaults& faults(int motor) { return nodes_->faults(motor); }
   int count() const { return nodes_->motors(); }
-  std::uint64_t frames_heard() const { return hub_->counters().received; }
+  const std::vector<Turn>& turns() const { return turns_; }  // since the beginning
 
  private:
   struct Delayed {
     TimePoint due;
     hal::CanFrame frame;
   };
-  Motors(std::unique_ptr<hal::LocalCanHub> hub, std::unique_ptr<MotorNodes> nodes, Duration delay);
+  Motors(std::unique_ptr<CanEnd> bus, std::unique_ptr<MotorNodes> nodes, Duration delay);
   void receive(TimePoint now);
+  void obey(TimePoint due, TimePoint told);
   void report(const RovPlant& plant);
 
-  std::unique_ptr<hal::LocalCanHub> hub_;
+  std::unique_ptr<CanEnd> bus_;
   std::unique_ptr<MotorNodes> nodes_;
   const Duration delay_;
+  TimePoint last_step_ = {};
   std::deque<Delayed> delayed_;
   std::vector<hal::CanFrame> heard_, said_;  // of one step
   std::vector<double> throttles_;
+  std::vector<Turn> turns_;
 };
 
 }  // namespace gannet::world

@@ -83,7 +83,7 @@ Result<Operator> Operator::connect(const std::string& socket, Duration timeout) 
   while (true) {
     auto client = control::Client::connect(socket);
     if (client) return Operator(std::move(*client));
-    if (std::chrono::steady_clock::now() > end) return client.error();
+    if (std::chrono::steady_clock::now() >= end) return client.error();
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
 }
@@ -95,8 +95,8 @@ Result<void> Operator::command(const Action& action) {
   return {};
 }
 
-Result<HeardEstimate> Operator::look(TimePoint start) {
-  auto answer = client_.call("status");
+Result<HeardEstimate> Operator::look(TimePoint start, Duration timeout) {
+  auto answer = client_.call("status", Json::object(), timeout);
   if (!answer) return answer.error();
   return heard_from(*answer, start);
 }

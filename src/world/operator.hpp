@@ -1,6 +1,6 @@
 // Operator: the person at the daemon's control socket, as a scenario has one: sends commands and
 // reads the status. Each call waits for its answer, so that in stepped time a command is in the
-// daemon before the next step. World's main thread.
+// daemon before the next step. One thread.
 #pragma once
 
 #include <memory>
@@ -22,7 +22,7 @@ class Operator {
   // Error: the daemon refused, in its words.
   Result<void> command(const Action& action);
   // What the daemon says now. Error: no answer.
-  Result<HeardEstimate> look(TimePoint start);
+  Result<HeardEstimate> look(TimePoint start, Duration timeout = std::chrono::seconds(5));
   // Its timing and counters, for the record.
   Result<control::Json> top();
 

@@ -11,6 +11,7 @@
 #include "platform/linux/fd.hpp"
 #include "platform/linux/whole_file.hpp"
 #include "src/config/printer.hpp"
+#include "src/config/toml_reader.hpp"
 #include "src/config/value_text.hpp"
 
 namespace gannet::world {
@@ -125,6 +126,24 @@ Result<void> write_files(const Scenario& scenario, const RunFiles& files,
   const auto rig = linux_os::write_file(files.rig(), rig_text(scenario.rig()));
   if (!rig) return rig.error();
   return linux_os::write_file(files.config(), config::commented_file(config));
+}
+
+Result<void> write_settings(const Scenario& scenario, const RunFiles& files) {
+  std::string text;
+  for (const std::string& setting : scenario.daemon.settings) {
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos) return Error{"'" + setting + "' is not room.key=value"};
+    // As --set takes it: a bare word stands for a string.
+    const std::string value = setting.substr(equals + 1);
+    const bool is_toml = static_cast<bool>(config::parse_toml("x = " + value, setting));
+    text +=
+        setting.substr(0, equals) + " = " + (is_toml ? value : config::toml_string(value)) + "\n";
+  }
+  std::error_code error;
+  const std::string folder = files.config() + ".d";
+  std::filesystem::create_directories(folder, error);
+  if (error) return Error{folder + ": " + error.message()};
+  return linux_os::write_file(folder + "/scenario.toml", text);
 }
 
 }  // namespace gannet::world

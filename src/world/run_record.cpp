@@ -7,6 +7,7 @@
 
 #include "platform/linux/whole_file.hpp"
 #include "src/report/table.hpp"
+#include "src/world/reactions.hpp"
 
 namespace gannet::world {
 
@@ -36,6 +37,25 @@ std::string timing_table(const RunResult& result) {
   return text + "\n";
 }
 
+namespace {
+
+control::Json reactions_json(const Trace& trace) {
+  const auto known = [](double ms) {
+    return std::isfinite(ms) ? control::Json(ms) : control::Json();
+  };
+  control::Json json = control::Json::array();
+  for (const Reaction& r : reactions_of(trace))
+    json.push_back({{"event", r.event},
+                    {"at_s", r.time_s},
+                    {"still_ms", known(r.still_ms)},
+                    {"turning_ms", known(r.turning_ms)},
+                    {"state", r.state},
+                    {"state_ms", known(r.state_ms)}});
+  return json;
+}
+
+}  // namespace
+
 control::Json result_json(const Scenario& scenario, const RunResult& result, bool stepped) {
   control::Json json;
   json["format"] = 1;
@@ -53,6 +73,7 @@ control::Json result_json(const Scenario& scenario, const RunResult& result, boo
     const double value = measure.value(result.trace, {});
     json["measures"][measure.name] = std::isfinite(value) ? control::Json(value) : control::Json();
   }
+  json["reactions"] = reactions_json(result.trace);
   json["cameras"] = {{"frames", result.cameras.frames},
                      {"withheld", result.cameras.withheld},
                      {"lost", result.cameras.lost}};

@@ -151,6 +151,8 @@ void describe(Visitor& v, VehicleScenario& c) {
            .help = "What its motors speak: drive.kind of the daemon."});
   v.field("drive_delay_ms", c.drive_delay_ms,
           {.min = 0, .max = 1000, .unit = "ms", .help = "From a frame on the bus to the motor."});
+  v.field("estop_contacts", c.estop_contacts,
+          {.min = 1, .max = 2, .help = "Of the e-stop button; two move in opposite ways."});
   v.group("plant", c.plant, "The body and the water, BlueROV2 Heavy unless said otherwise.");
 }
 

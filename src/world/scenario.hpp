@@ -35,6 +35,7 @@ struct VehicleScenario {
   std::vector<double> current_mm_s = {0, 0, 0};
   std::string drives = "dronecan_esc";  // drive.kind of its motors
   double drive_delay_ms = 5;
+  int estop_contacts = 1;
   RovPlantConfig plant;
 };
 

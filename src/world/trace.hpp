@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,11 +49,20 @@ struct Mark {
   std::string text;
 };
 
+// From then on the drives are still (disarmed, none told to turn) or not, by the time of the frame
+// on the bus that told them, or of the drives' own decision.
+struct TurnMark {
+  double time_s = 0;
+  bool still = false;
+};
+
 struct Trace {
   int motors = 0;
   double period_s = 0.005;
   std::vector<TraceRow> rows;
-  std::vector<Mark> marks;  // events as they happened
+  std::vector<Mark> marks;                 // events as they happened
+  std::vector<TurnMark> turns;             // in order of time
+  std::map<std::string, double> counters;  // the daemon's own, at the end
 
   // Time of the first mark with this text; negative: none.
   double time_of(const std::string& text) const;

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "src/world/scenario.hpp"
+#include "src/world/shared_frame_sink.hpp"
 #include "src/world/stage.hpp"
 #include "src/world/texture_made.hpp"
 
@@ -38,11 +39,12 @@ class CamerasTest : public ::testing::Test {
  protected:
   void make(bool in_background = false) {
     Cameras::Config config;
-    config.shared_name = name_;
     config.period = milliseconds(30);
     config.latency = milliseconds(40);
     config.in_background = in_background;
-    auto made = Cameras::create(config, world_.renderer(), serial_);
+    auto sink = SharedFrameSink::create(name_, 64, 48);
+    ASSERT_TRUE(sink) << sink.error().text;
+    auto made = Cameras::create(config, world_.renderer(), std::move(*sink), serial_);
     ASSERT_TRUE(made) << made.error().text;
     sut_ = std::move(*made);
     auto reader = hal::SharedFramesReader::open(name_);
@@ -120,6 +122,56 @@ TEST_F(CamerasTest, a_share_is_dropped) {
     while (reader_->take(t, frame) == hal::CaptureStatus::kFrame) frame = {};
   }
   EXPECT_NEAR(static_cast<double>(sut_->counters().withheld) / 200, 0.3, 0.1);
+}
+
+TEST_F(CamerasTest, frozen_they_repeat_picture_and_stamp) {
+  make();
+  sut_->start(time_from_ns(0));
+  std::vector<std::vector<std::uint8_t>> pictures;
+  std::vector<TimePoint> stamps;
+  hal::StereoFrame frame;
+  for (int i = 0; i < 6; ++i) {
+    sut_->faults().frozen = i >= 2 && i < 4;
+    const TimePoint t = time_from_ns(i * std::int64_t{30'000'000});
+    expose(t);
+    ASSERT_EQ(reader_->take(t + milliseconds(40), frame), hal::CaptureStatus::kFrame) << i;
+    const auto* bytes = frame.left.plane[0];
+    pictures.emplace_back(bytes, bytes + frame.left.stride[0] * frame.left.height);
+    stamps.push_back(frame.capture_time);
+    frame = {};
+  }
+  EXPECT_NE(pictures[0], pictures[1]);  // noise differs
+  for (const std::size_t i : {2u, 3u}) {
+    EXPECT_EQ(pictures[i], pictures[1]);
+    EXPECT_EQ(stamps[i], stamps[1]);
+  }
+  EXPECT_EQ(stamps[4], time_from_ns(120'000'000));
+}
+
+TEST_F(CamerasTest, backward_stamps_are_refused_by_the_reader) {
+  make();
+  sut_->start(time_from_ns(0));
+  hal::StereoFrame frame;
+  expose(time_from_ns(0));
+  expose(time_from_ns(30'000'000));
+  EXPECT_EQ(reader_->take(time_from_ns(40'000'000), frame), hal::CaptureStatus::kFrame);
+  EXPECT_EQ(reader_->take(time_from_ns(70'000'000), frame), hal::CaptureStatus::kFrame);
+  sut_->faults().backward_since = time_from_ns(31'000'000);
+  expose(time_from_ns(60'000'000));
+  EXPECT_EQ(reader_->take(time_from_ns(100'000'000), frame), hal::CaptureStatus::kBroken);
+}
+
+TEST_F(CamerasTest, a_late_camera_delays_the_pair_and_never_turns_it_round) {
+  make();
+  sut_->start(time_from_ns(0));
+  sut_->faults().late[kRightSide] = milliseconds(35);
+  expose(time_from_ns(0));
+  sut_->faults() = {};
+  expose(time_from_ns(30'000'000));
+  hal::StereoFrame frame;
+  EXPECT_EQ(reader_->take(time_from_ns(74'000'000), frame), hal::CaptureStatus::kNothing);
+  EXPECT_EQ(reader_->take(time_from_ns(75'000'000), frame), hal::CaptureStatus::kFrame);
+  EXPECT_EQ(reader_->take(time_from_ns(75'000'000), frame), hal::CaptureStatus::kFrame);
 }
 
 TEST_F(CamerasTest, live_they_draw_beside_us) {

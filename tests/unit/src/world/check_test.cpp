@@ -31,6 +31,8 @@ Trace example() {
     row.at_capture.translation = {0, 0, 0.5};
     trace.rows.push_back(row);
   }
+  trace.turns = {{0, true}, {1, false}, {6.03, true}};
+  trace.counters = {{"camera_broken", 7}};
   return trace;
 }
 
@@ -64,11 +66,22 @@ TEST(Check, judges_permits_and_states) {
   EXPECT_TRUE(verdict("state is servoing at 5 s").passed);
   EXPECT_TRUE(verdict("state is stopped at 6.5 s").passed);
   EXPECT_FALSE(verdict("state is standby at 6.5 s").passed);
+  EXPECT_TRUE(verdict("state stopped within 11 ms of press estop").passed);
+  EXPECT_FALSE(verdict("state stopped within 9 ms of press estop").passed);
+  EXPECT_FALSE(verdict("state faulted within 1000 ms of press estop").passed);
+  EXPECT_FALSE(verdict("state stopped within 1000 ms of daemon gone").passed);
+}
+
+TEST(Check, judges_the_daemons_counters) {
+  EXPECT_TRUE(verdict("counted camera_broken > 5").passed);
+  EXPECT_TRUE(verdict("counted camera_broken = 7").passed);
+  EXPECT_FALSE(verdict("counted camera_broken < 7").passed);
+  EXPECT_FALSE(verdict("counted camera_brocken > 5").passed);
 }
 
 TEST(Check, a_motion_under_the_pressed_estop_is_no_stop) {
   Trace trace = example();
-  trace.rows[700].throttle[0] = 0.1;
+  trace.turns.push_back({7, false});
   const auto check = parse_check("permit none within 50 ms of press estop");
   ASSERT_TRUE(check);
   EXPECT_FALSE(judge(*check, trace).passed);
@@ -97,7 +110,10 @@ TEST(Check, refuses_what_it_does_not_understand) {
   for (const char* text :
        {"", "rms_x_mm", "rms_x_mm < ten", "rms_x_mm ~ 10", "rms_x_mm < 10 after 3",
         "rms_x_mm < 10 since 3 s", "rms_q_mm < 10", "permit none within 20 ms", "state stopped",
-        "permit none within 20 ms of press button", "state is stopped at noon s"}) {
+        "permit none within 20 ms of press button", "state is stopped at noon s",
+        "state stopped within 20 ms", "state stopped within ten ms of press estop",
+        "state stopped within 20 ms of press button", "counted", "counted x", "counted x ~ 3",
+        "counted x > many"}) {
     EXPECT_FALSE(parse_check(text)) << text;
   }
 }

@@ -46,6 +46,25 @@ TEST(RunFiles, the_rig_reads_back_as_it_was) {
   EXPECT_LT(read->body_from_hand->rotation.angularDistance(rig.body_from_hand->rotation), 1e-7);
 }
 
+// What --set would take, the daemon finds beside its config.
+TEST(RunFiles, settings_become_a_drop_in) {
+  const auto files = RunFiles::create("");
+  ASSERT_TRUE(files);
+  auto scenario = load_scenario("tests/scenarios/poses_only.toml");
+  ASSERT_TRUE(scenario);
+  scenario->daemon.settings = {"track.evaluations=777", "realtime.worker_cores=[0, 1]",
+                               "frames.directory = kept"};
+  ASSERT_TRUE(write_files(*scenario, *files, daemon_config(*scenario, *files, {}, false)));
+  ASSERT_TRUE(write_settings(*scenario, *files));
+  const auto loaded = config::load_daemon_config({files->config(), {}});
+  ASSERT_TRUE(loaded) << loaded.error().text;
+  EXPECT_EQ(loaded->config.track.evaluations, 777);
+  EXPECT_EQ(loaded->config.realtime.worker_cores, (std::vector<int>{0, 1}));
+  EXPECT_TRUE(loaded->config.frames.directory.ends_with("kept"));
+  scenario->daemon.settings = {"nothing"};
+  EXPECT_FALSE(write_settings(*scenario, *files));
+}
+
 // The daemon's own loader takes the config of every kind of scenario.
 class DaemonConfigOf : public ::testing::TestWithParam<const char*> {};
 

@@ -19,6 +19,7 @@ RunResult example() {
     result.trace.rows.push_back(row);
   }
   result.trace.marks = {{0.005, "arm"}};
+  result.trace.turns = {{0, true}, {0.0075, false}};
   result.verdicts = {{"settle_s < 6", "4.2", true}, {"rms_mm < 1", "3", false}};
   result.top = control::Json::parse(
       R"({"latencies": {"frame_to_can": {"count": 3, "p50_us": 1500, "max_us": 2000}},
@@ -58,6 +59,9 @@ TEST(RunRecord, files_can_be_read_by_programs) {
   EXPECT_EQ(json["checks"][0]["found"], "4.2");
   EXPECT_EQ(json["measures"]["throttle"], 0.5);
   EXPECT_TRUE(json["measures"]["fitness"].is_null());
+  EXPECT_EQ(json["reactions"][0]["event"], "arm");
+  EXPECT_NEAR(json["reactions"][0]["turning_ms"].get<double>(), 2.5, 1e-9);
+  EXPECT_TRUE(json["reactions"][0]["still_ms"].is_null());
   std::stringstream csv(file_text(folder + "/trace.csv"));
   std::string header, row;
   std::getline(csv, header);
