@@ -156,6 +156,8 @@ void Cia402Node::hear_nmt(const CanFrame& frame, TimePoint now) {
   switch (frame.data[0]) {
     case 1:
       nmt_ = kOperational;
+      // Event-driven PDOs say once how things stand.
+      if (before != kOperational) said_status_ = static_cast<std::uint16_t>(~status_word());
       break;
     case 2:
       nmt_ = kStopped;
