@@ -29,7 +29,8 @@ can_up() {
 # The lines of a chip "rov"; LINES becomes its folder, with sim_gpio0 (e-stop) and so on. The e-stop
 # is a contact that closes to high when pressed; its pull is the switch.
 lines_up() {
-  modprobe gpio-sim
+  modprobe -a configfs gpio-sim
+  mountpoint -q /sys/kernel/config || mount -t configfs none /sys/kernel/config
   chip=/sys/kernel/config/gpio-sim/rov
   mkdir -p $chip/bank0
   echo 8 >$chip/bank0/num_lines
@@ -80,13 +81,16 @@ daemon_up() { mark start; systemctl start gannetd; mark started; }
 state() { gannet status --json 2>/dev/null | jq -r .state; }
 state_is() { [ "$(state)" = "$1" ]; }
 world_ends() { wait $WORLD_PID || note "world=$?"; }
-servoing() {  # arm, and wait until it servoes
+servoing() {  # choose the target, arm as soon as it may be, and wait until it servoes
+  until_true 8 state_is standby
+  mark standby
   gannet target model crab >/dev/null
   mark arm
-  gannet arm >/dev/null
+  until_true 8 quietly gannet arm
   until_true 8 state_is servoing
   mark servoing
 }
+quietly() { "$@" >/dev/null 2>&1; }
 
 # What the daemon says of itself, as KEY=VALUE lines for the judge: status-WHEN, top-WHEN.
 flatten() { jq -r 'paths(scalars) as $p | ($p | map(tostring) | join(".")) + "=" + (getpath($p) | tostring)'; }
@@ -103,7 +107,7 @@ finish() {  # CODE
   figures end
   [ ! -e $OUT/world/result.json ] || flatten <$OUT/world/result.json >$OUT/result
   systemctl show gannetd >$OUT/unit
-  [ -z "$CANDUMP" ] || kill "$CANDUMP" 2>/dev/null
+  kill $CANDUMP $WORLD_PID 2>/dev/null
   journalctl -o short-unix --no-hostname >$OUT/journal 2>/dev/null
   dmesg >$OUT/dmesg
   if [ -n "$SHELL_WANTED" ]; then

@@ -4,7 +4,6 @@ CHECKS='"rms_mm < 15 after 7 s", "found_share > 0.9 after 4 s"'
 play() {
   world_up
   daemon_up
-  mark "state $(state)"
   servoing
   sleep 3
   figures servoing
@@ -15,7 +14,7 @@ play() {
 }
 judge() {
   check "systemctl start returns" "$(ms "$(at start)" "$(at started)")" "<" 3000 ms
-  check "standby after the start" "$(at state standby)" != ""
+  check "start to standby" "$(ms "$(at start)" "$(at standby)")" "<" 4000 ms
   check "commands to turn before arming" "$(turns_between 0 "$(at arm)")" = 0
   check "start to servoing" "$(ms "$(at start)" "$(at servoing)")" "<" 6000 ms
   world_checks
