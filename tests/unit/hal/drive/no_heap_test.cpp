@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/drive/cia402_drive.hpp"
+#include "hal/drive/drive_kinds.hpp"
 #include "hal/drive/dronecan_esc_drive.hpp"
 #include "platform/base/random.hpp"
 #include "tests/support/count_heap.hpp"
@@ -70,6 +71,31 @@ TEST(DriveNoHeap, CyclesOfCia402DrivesThatComeAndGoTakeNoMemory) {
     if (cycle % 100 == 0) sut->reset_faults(now);
   }
   EXPECT_EQ(test::heap_calls - before, 0u);
+}
+
+TEST(DriveNoHeap, CyclesOfVescsAndOdrivesTakeNoMemory) {
+  if (!test::kCountsHeap) GTEST_SKIP() << "the sanitizer has its own heap";
+  for (const char* kind : {"vesc", "odrive"}) {
+    DriveConfig config;
+    config.kind = kind;
+    for (int i = 0; i < 8; ++i) config.motors.push_back({.node_id = 0x15 + i});
+    const auto sut = std::move(make_drive_group(config)).value();
+    const DriveSetpoint setpoints[8] = {};
+    CanFrame out[64];
+    const std::vector<CanFrame> in = frames_from(
+        {"00000915#0000508C007B0041", "0000080A#1501320020000001", "2A9#0000000000000040",
+         "2A1#0000000101000000", "2A1#2000000008000000", "00000915#00", "2A1#00"});
+    const std::uint64_t before = test::heap_calls;
+    for (int cycle = 0; cycle < 5000; ++cycle) {
+      const TimePoint now(std::chrono::milliseconds(5 * cycle));
+      for (const CanFrame& frame : in) sut->receive(frame, now);
+      sut->send(setpoints, cycle % 500 < 250, now, out);
+      sut->health(now);
+      if (cycle % 100 == 0) sut->reset_faults(now);
+    }
+    EXPECT_EQ(test::heap_calls - before, 0u);
+    EXPECT_GT(sut->malformed(), 0u) << kind;
+  }
 }
 
 }  // namespace

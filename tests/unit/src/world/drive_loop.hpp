@@ -29,12 +29,24 @@ class DriveLoop : public testing::Test {
       int n = 0;
       if (daemon_lives) n = drive_->send(setpoints, enable, now(), sent);
       heard_.clear();
-      throttles_ = nodes_->step(now(), std::span(sent).first(static_cast<std::size_t>(n)), heard_);
-      for (const hal::CanFrame& frame : heard_) {
+      const auto carried = carry(std::span(sent).first(static_cast<std::size_t>(n)));
+      throttles_ = nodes_->step(now(), carried, heard_);
+      for (const hal::CanFrame& frame : carry(heard_)) {
         log_ += hal::to_text(frame) + '\n';
         if (daemon_lives) drive_->receive(frame, now());
       }
     }
+  }
+  // What arrives on a wire that loses frames and says some twice, as a sender does that has missed
+  // the confirmation.
+  std::vector<hal::CanFrame> carry(std::span<const hal::CanFrame> frames) {
+    std::vector<hal::CanFrame> carried;
+    for (const hal::CanFrame& frame : frames) {
+      if (loss_ > 0 && random_.uniform() < loss_) continue;
+      carried.push_back(frame);
+      if (repeat_ > 0 && random_.uniform() < repeat_) carried.push_back(frame);
+    }
+    return carried;
   }
   // Not enabled, until the drives' own guards have been seen.
   void make_ready() {
@@ -51,6 +63,8 @@ class DriveLoop : public testing::Test {
   std::vector<hal::CanFrame> heard_;
   std::span<const double> throttles_;
   std::string log_;
+  double loss_ = 0, repeat_ = 0;  // shares of the frames, both ways
+  Random random_{3};
   std::int64_t ms_ = 1000;
 };
 

@@ -6,6 +6,7 @@
 
 #include "hal/can/can_text.hpp"
 #include "hal/drive/dronecan_esc_drive.hpp"
+#include "tests/unit/src/world/drive_loop.hpp"
 
 namespace gannet::world {
 namespace {
@@ -211,6 +212,31 @@ TEST_F(EscNodesTest, TheSameSeedGivesTheSameFrames) {
   }
   EXPECT_GT(logs[0].size(), 1000u);
   EXPECT_EQ(logs[0], logs[1]);
+}
+
+// Twenty ESCs take six frames a command: one lost frame costs that command, not the next ones.
+class EscsOnABadWire : public DriveLoop {};
+
+TEST_F(EscsOnABadWire, TwentyEscsInOneCommandLiveWithLostAndRepeatedFrames) {
+  const hal::DriveConfig config = with_motors(20);
+  make(config, std::make_unique<EscNodes>(config, EscBehaviour{}, 1));
+  loss_ = repeat_ = 0.05;
+  make_ready();
+  std::vector<double> values;
+  for (int i = 0; i < 20; ++i) values.push_back(0.9 - 0.09 * i);
+  int obeyed = 0;
+  for (int i = 0; i < 400; ++i) {
+    run(1, values, true);
+    EXPECT_FALSE(health().any_fault);
+    EXPECT_TRUE(health().all_alive);
+    for (std::size_t motor = 0; i >= 40 && motor < 20; ++motor) {
+      EXPECT_NEAR(throttle(motor), values[motor], 1e-3);
+      ++obeyed;
+    }
+  }
+  EXPECT_EQ(obeyed, 360 * 20);
+  run(20, {}, false);
+  for (const double value : throttles_) EXPECT_EQ(value, 0);
 }
 
 }  // namespace

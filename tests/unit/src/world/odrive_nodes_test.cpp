@@ -1,5 +1,6 @@
 #include "src/world/odrive_nodes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/world/thruster.hpp"
@@ -120,6 +121,23 @@ TEST_F(OdriveNodesTest, LateWordsAreBorne) {
   run(100, {0.5}, true);
   EXPECT_FALSE(health().any_fault) << health().trouble;
   EXPECT_NE(throttle(0), 0);
+}
+
+// A fifth of all frames lost, as many said twice.
+TEST_F(OdriveNodesTest, RunsOnOverABadWire) {
+  make(with_motors(8));
+  loss_ = repeat_ = 0.2;
+  make_ready();
+  int still = 0;
+  for (int i = 0; i < 400; ++i) {
+    run(1, std::vector<double>(8, 0.5), true);
+    EXPECT_FALSE(health().any_fault) << health().trouble;
+    EXPECT_TRUE(health().all_alive);
+    if (i >= 200) still += static_cast<int>(std::count(throttles_.begin(), throttles_.end(), 0.0));
+  }
+  EXPECT_EQ(still, 0);
+  run(80, {}, false);
+  for (const double value : throttles_) EXPECT_EQ(value, 0);
 }
 
 TEST_F(OdriveNodesTest, TheSameSeedGivesTheSameFrames) {

@@ -1,5 +1,6 @@
 #include "src/world/vesc_nodes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/world/thruster.hpp"
@@ -119,6 +120,23 @@ TEST_F(VescNodesTest, LateWordsAndLostOnesAreBorne) {
   run(1200, {}, false);
   EXPECT_TRUE(health().all_alive);
   EXPECT_TRUE(health().all_ready);
+}
+
+// A fifth of all frames lost, as many said twice.
+TEST_F(VescNodesTest, RunsOnOverABadWire) {
+  make(with_motors(8));
+  loss_ = repeat_ = 0.2;
+  make_ready();
+  int still = 0;
+  for (int i = 0; i < 400; ++i) {
+    run(1, std::vector<double>(8, 0.5), true);
+    EXPECT_FALSE(health().any_fault) << health().trouble;
+    EXPECT_TRUE(health().all_alive);
+    if (i >= 100) still += static_cast<int>(std::count(throttles_.begin(), throttles_.end(), 0.0));
+  }
+  EXPECT_EQ(still, 0);
+  run(80, {}, false);
+  for (const double value : throttles_) EXPECT_EQ(value, 0);
 }
 
 TEST_F(VescNodesTest, TheSameSeedGivesTheSameFrames) {
