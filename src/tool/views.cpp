@@ -1,6 +1,7 @@
 #include "src/tool/views.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "src/report/table.hpp"
@@ -118,6 +119,22 @@ std::string state_text(const Json& answer) {
   return text;
 }
 
+std::string drives_text(const Json& drives) {
+  std::string text = member(drives, "all_alive") == true ? "all alive" : "not all alive";
+  if (member(drives, "any_fault") == true) text += ", one in fault";
+  if (member(drives, "all_ready") == false) text += ", not all set up";
+  if (member(drives, "guards_itself") == false) text += ", one would not stop by itself";
+  const Json& trouble = member(drives, "trouble");
+  const Json& code = member(drives, "trouble_code");
+  if (trouble.is_string() && trouble != "" && code.is_number_unsigned()) {
+    char number[24];
+    std::snprintf(number, sizeof number, " (0x%X)", code.get<unsigned>());
+    text +=
+        ", motor " + word(member(drives, "first_bad")) + ": " + trouble.get<std::string>() + number;
+  }
+  return text + ", bus " + word(member(drives, "bus"));
+}
+
 std::string status_text(const Json& status) {
   std::string text = row("state", state_text(status));
   const std::string obstacle = word(member(status, "obstacle"));
@@ -127,11 +144,7 @@ std::string status_text(const Json& status) {
   text += row("goal", numbers(member(status, "goal_mm"), 0) + " mm in the hand frame");
   text += estimate_rows(status);
   const Json& drives = member(status, "drives");
-  if (drives.is_object())
-    text += row("drives",
-                std::string(member(drives, "all_alive") == true ? "all alive" : "not all alive") +
-                    (member(drives, "any_fault") == true ? ", one in fault" : "") + ", bus " +
-                    word(member(drives, "bus")));
+  if (drives.is_object()) text += row("drives", drives_text(drives));
   return text + row("daemon", "gannetd " + word(member(status, "version")) + ", vehicle " +
                                   word(member(status, "vehicle")) + ", camera " +
                                   word(member(status, "camera")) + ", clock " +

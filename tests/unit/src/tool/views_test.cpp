@@ -25,6 +25,22 @@ TEST(Views, status_tells_state_target_and_error) {
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
+TEST(Views, status_tells_what_is_wrong_with_which_drive) {
+  const Json status = Json::parse(R"({"drives": {
+    "all_alive": true, "any_fault": true, "all_ready": true, "guards_itself": true, "bus": "good",
+    "first_bad": 2, "trouble": "heartbeat lost", "trouble_code": 33072}})");
+  EXPECT_NE(status_text(status).find(
+                "all alive, one in fault, motor 2: heartbeat lost (0x8130), bus good"),
+            std::string::npos)
+      << status_text(status);
+  const Json refused = Json::parse(R"({"drives": {
+    "all_alive": true, "any_fault": false, "all_ready": false, "guards_itself": false,
+    "bus": "good", "first_bad": 0, "trouble": "", "trouble_code": 0}})");
+  EXPECT_NE(status_text(refused).find("all alive, not all set up, one would not stop by itself"),
+            std::string::npos)
+      << status_text(refused);
+}
+
 TEST(Views, what_a_daemon_does_not_say_is_a_dash) {
   for (const Json& nothing : {Json(), Json::object(), Json::array({1, 2}), Json("text")}) {
     EXPECT_NE(status_text(nothing).find("state     –"), std::string::npos);
