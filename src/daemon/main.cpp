@@ -24,7 +24,10 @@ const Command kCommand = {
         "Recognises a target in the images of two cameras, follows it with its pose, and steers a "
         "vehicle by it over a CAN bus. It starts in standby and never arms by itself: a person "
         "does, with gannet(1).\n\nSIGTERM and SIGINT stop it in order: the motors are commanded "
-        "to stop, every device is closed.",
+        "to stop, every device is closed.\n\nAs a service (gannetd.service) it tells systemd when "
+        "it is ready, and feeds the watchdog only while the loops of capture, vision and servo "
+        "all move. After a crash it comes up in standby. A second one is refused the control "
+        "socket and the CAN interface of the first.",
     .options = {{.name = "config",
                  .letter = 'c',
                  .value = "FILE",
