@@ -123,13 +123,18 @@ class Checker {
   }
 
   void check_drive() {
-    std::set<int> indices;
+    const bool has_indices = config_.drive.kind == "dronecan_esc";
+    const bool has_own_id = config_.drive.kind != "odrive";
+    std::set<int> indices, nodes;
     for (std::size_t i = 0; i < config_.drive.motors.size(); ++i) {
       const hal::MotorConfig& motor = config_.drive.motors[i];
       const std::string key = "drive.motor[" + std::to_string(i) + "]";
-      if (!indices.insert(motor.index).second)
+      if (has_indices && !indices.insert(motor.index).second)
         refuse(key + ".index", std::to_string(motor.index) + " is used twice");
-      if (motor.node_id == config_.drive.own_node_id)
+      // Several PWM ESCs may hang on one DroneCAN node; everywhere else a node has one motor.
+      if (!has_indices && !nodes.insert(motor.node_id).second)
+        refuse(key + ".node_id", std::to_string(motor.node_id) + " is used twice");
+      if (has_own_id && motor.node_id == config_.drive.own_node_id)
         refuse(key + ".node_id", "is drive.own_node_id, the daemon's own");
     }
   }

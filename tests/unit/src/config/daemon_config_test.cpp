@@ -143,6 +143,23 @@ TEST_F(DaemonConfigTest, a_vehicle_needs_a_place_of_the_cameras_and_a_motor_per_
             "needs: where the cameras sit on it");
 }
 
+// Only DroneCAN has indices, and several motors on a node; only ODrive has no id of ours.
+TEST_F(DaemonConfigTest, ids_and_indices_are_judged_by_what_the_motors_speak) {
+  std::string six;
+  for (const int node : {20, 21, 22, 23, 10, 23})
+    six += "[[drive.motor]]\nnode_id = " + std::to_string(node) + "\n";
+  write("gannet.toml", "rig = \"rig.toml\"\n[vehicle]\nkind = \"rov\"\n" + six);
+  for (const std::string kind : {"cia402", "vesc", "odrive"}) {
+    const std::string found = problems({"drive.kind=" + kind});
+    EXPECT_EQ(found.find("index"), std::string::npos) << found;
+    EXPECT_NE(found.find("drive.motor[5].node_id: 23 is used twice"), std::string::npos) << found;
+    EXPECT_EQ(found.find("own_node_id") == std::string::npos, kind == "odrive") << found;
+  }
+  const std::string found = problems();
+  EXPECT_NE(found.find("drive.motor[1].index: 0 is used twice"), std::string::npos) << found;
+  EXPECT_EQ(found.find("23 is used twice"), std::string::npos) << found;
+}
+
 TEST_F(DaemonConfigTest, groups_that_do_not_fit_each_other_are_told) {
   write("gannet.toml",
         "rig = \"rig.toml\"\n[board]\ncores = 2\n[realtime.servo]\ncore = 2\n"
