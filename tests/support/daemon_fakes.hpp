@@ -138,6 +138,7 @@ class FakeDrives final : public hal::DriveGroup {
   std::span<const hal::DriveFeedback> feedback() const override { return {}; }
   hal::DriveGroupHealth health(TimePoint) const override { return says; }
   std::uint64_t malformed() const override { return 0; }
+  void reset_faults(TimePoint) override { ++resets; }
 
   double largest() const {
     double most = 0;
@@ -148,6 +149,7 @@ class FakeDrives final : public hal::DriveGroup {
   hal::DriveGroupHealth says = {.all_alive = true};
   std::vector<hal::DriveSetpoint> last;
   bool enabled = false;
+  int resets = 0;
 };
 
 class FakeInput final : public hal::DigitalInput {

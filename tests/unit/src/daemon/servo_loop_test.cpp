@@ -165,6 +165,37 @@ TEST_F(ServoLoopTest, a_line_that_cannot_be_read_is_a_stop) {
   EXPECT_FALSE(drives_.enabled);
 }
 
+TEST_F(ServoLoopTest, drives_that_are_not_set_up_or_would_run_on_bar_arming) {
+  step(2);
+  drives_.says.all_ready = false;
+  ask(Request::kArm);
+  EXPECT_EQ(report_.read().refused, Cause::kDrivesNotReady);
+  drives_.says.all_ready = true;
+  drives_.says.guards_itself = false;
+  ask(Request::kArm);
+  EXPECT_EQ(report_.read().refused, Cause::kDrivesUnguarded);
+  EXPECT_EQ(state(), State::kStandby);
+  drives_.says.guards_itself = true;
+  ask(Request::kArm);
+  EXPECT_EQ(state(), State::kArmed);
+}
+
+TEST_F(ServoLoopTest, a_persons_reset_reaches_the_drives_unless_it_is_refused) {
+  start_servoing();
+  EXPECT_EQ(drives_.resets, 0);
+  estop_.says = {.level = hal::Level::kHigh};
+  step();
+  ask(Request::kReset);
+  EXPECT_EQ(drives_.resets, 0);
+  estop_.says = {.level = hal::Level::kLow};
+  step(20);
+  ask(Request::kReset);
+  EXPECT_EQ(state(), State::kStandby);
+  EXPECT_EQ(drives_.resets, 1);
+  step(5);
+  EXPECT_EQ(drives_.resets, 1);
+}
+
 TEST_F(ServoLoopTest, a_release_that_bounces_is_not_yet_one) {
   step(2);
   estop_.says = {.level = hal::Level::kHigh};
