@@ -17,6 +17,9 @@ constexpr int kBatch = 512;         // candidates a round
 constexpr int kChunk = 16;          // of them a piece of parallel work
 constexpr double kLeastSizePx = 9;  // of the target on a coarse level, √area
 constexpr double kSpacingPx = 1.8;  // of a coarse level's points, in that level's pixels
+// At least so many of the model's spacings: a level that costs as much as a finer one saves
+// nothing.
+constexpr double kLeastMerge = 1.6;
 constexpr double kRectanglePoints = 1500;
 
 double radians(double degrees) { return degrees * 3.14159265358979323846 / 180; }
@@ -82,7 +85,7 @@ bool Recogniser::assign_levels(double projected_size_px, double spacing_px) {
     ++target_.levels;
   }
   for (int l = 0; l < target_.levels; ++l) {
-    const double factor = l == 0 ? 1 : std::max(1.0, kSpacingPx * (1 << l) / spacing_px);
+    const double factor = l == 0 ? 1 : std::max(kLeastMerge, kSpacingPx * (1 << l) / spacing_px);
     vision::coarsen(points_, spacing_, factor, coarse_);
     target_.level[static_cast<std::size_t>(l)].assign(coarse_, background_, target_.background_hue,
                                                       target_.unscaled);

@@ -257,13 +257,8 @@ Refinement refine_pose(const StereoRig& rig, const PointSet& points, const Prepa
     if (!problem.accumulate(of_eye, hessian, slope) || !solve<6>(hessian, slope, step)) {
       return out;
     }
-    // Within half a standard deviation of the optimum: what is left is noise.
     const double sigmas2 = step.dot(hessian * step) / options.shared_noise;
-    const bool there = k > 0 && sigmas2 < 0.25;
-    if (k == options.iterations) {
-      if (!there) return out;
-      break;
-    }
+    if (k == options.iterations) break;
     // A step is at most a few pixels: further away the gradients say nothing.
     const double z = out.left_from_target.translation.z();
     const double scale =
@@ -273,7 +268,7 @@ Refinement refine_pose(const StereoRig& rig, const PointSet& points, const Prepa
     const Vector3d turn = step.tail<3>();
     out.left_from_target.rotation =
         (quaternion_from_rotation_vector(turn) * out.left_from_target.rotation).normalized();
-    if (there && sigmas2 < options.sigmas_stop * options.sigmas_stop) break;
+    if (k > 0 && sigmas2 < options.sigmas_stop * options.sigmas_stop) break;
   }
   out.ok = invert<6>(hessian, options.shared_noise, out.covariance) &&
            out.left_from_target.translation.z() > 0;
