@@ -228,7 +228,7 @@ SYSTEM = $(DESTDIR)$(PREFIX)/lib
 install: all
 	install -d $(DESTDIR)$(PREFIX)/bin $(SHARE)/man/man1 $(SHARE)/man/man5 $(SHARE)/man/man8 \
 	  $(SHARE)/gannet/scenarios $(SHARE)/gannet/boards $(SHARE)/gannet/assets \
-	  $(SHARE)/doc/gannet/examples $(SHARE)/doc/gannet/guides $(DESTDIR)/etc/gannet/gannet.toml.d \
+	  $(SHARE)/doc/gannet/examples $(SHARE)/doc/gannet/guides $(SHARE)/doc/gannet/reference $(DESTDIR)/etc/gannet/gannet.toml.d \
 	  $(SYSTEM)/systemd/system $(SYSTEM)/systemd/system-preset $(SYSTEM)/sysusers.d $(SYSTEM)/tmpfiles.d $(SYSTEM)/udev/rules.d
 	install $(foreach p,$(PROGRAMS),$B/bin/$p) $(DESTDIR)$(PREFIX)/bin
 	$(STRIP) --remove-section=.comment $(foreach p,$(PROGRAMS),$(DESTDIR)$(PREFIX)/bin/$p)
@@ -239,6 +239,7 @@ install: all
 	for f in $(WORLD_ASSETS); do [ ! -e $$f ] || install -m 644 $$f $(SHARE)/gannet/assets; done
 	install -m 644 docs/examples/*.toml $(SHARE)/doc/gannet/examples
 	install -m 644 docs/guides/*.md $(SHARE)/doc/gannet/guides
+	install -m 644 docs/reference/* $(SHARE)/doc/gannet/reference
 	for f in systemd/*.service systemd/*.slice; do \
 	  sed 's,/usr/bin/gannet,$(PREFIX)/bin/gannet,g' $$f | \
 	  install -m 644 /dev/stdin $(SYSTEM)/systemd/system/$${f##*/}; done
