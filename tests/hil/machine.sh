@@ -60,7 +60,7 @@ run_scenario() {  # NAME SEED RESULTS
     (. "$here/scenarios/$name.sh"; machine "$seed" "$results")
     return
   fi
-  install_package
+  (flock 9; install_package) 9>"$cache/lock"
   files=$results/files
   mkdir -p "$files/out"
   cp "$here"/guest/start "$here"/guest/lib.sh "$cache/poke" "$files"
@@ -74,6 +74,7 @@ run_scenario() {  # NAME SEED RESULTS
   find "$files" -exec touch -h -d '2035-01-01 UTC' {} +
   disk "$files" "$results/disk.ext4"
   rm -r "$files"
+  [ -e "$cache/ready.stamp" ] || return 1
   boot "$cache/ready.ext4" off "$results/disk.ext4" "$seed" "$results/console" "${HOST_LIMIT_S:-300}" || return 1
   debugfs -R "rdump /out $results" "$results/disk.ext4" 2>/dev/null
   mv "$results"/out/* "$results"
