@@ -6,8 +6,6 @@
 namespace gannet::bench {
 namespace {
 
-constexpr int kScenes = 60;
-
 bool is_right(const Pose& found, const Pose& truth) {
   const Eigen::Vector3d d = found.translation - truth.translation;
   const double turn =
@@ -78,7 +76,7 @@ void bench_acquisition(const Options& options, Results& results) {
   const ClutteredScene scene(options.width(), options.height());
   std::vector<Scene> scenes;
   Random random(2024);
-  for (int i = 0; i < kScenes; ++i) {
+  for (int i = 0; i < options.scenes; ++i) {
     const Pair pair = scene.see(scene.random_pose(random), static_cast<std::uint64_t>(100 + i));
     auto frame = std::make_unique<vision::PreparedFrame>(
         options.width(), options.height(), vision::PlaneNeeds{.packed = true, .hue_value = true});

@@ -8,6 +8,7 @@ namespace gannet::bench {
 // quick: small pictures and few turns, to see that all of it runs; the figures mean nothing then.
 struct Options {
   bool quick = false;
+  int scenes = 60;  // of the acquisition
   int turns() const { return quick ? 3 : 41; }
   int width() const { return quick ? 320 : 640; }
   int height() const { return quick ? 240 : 480; }

@@ -1,5 +1,6 @@
 // The benchmark: all groups in one run, ratios first; `make bench`.
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 
@@ -8,9 +9,10 @@
 namespace {
 
 constexpr const char* kHelp =
-    "run [--quick] [--only GROUP] [--json FILE] [--flags TEXT] [--commit TEXT]\n"
+    "run [--quick] [--only GROUP] [--scenes N] [--json FILE] [--flags TEXT] [--commit TEXT]\n"
     "  --quick   small pictures, few turns: does it run? The figures mean nothing.\n"
     "  --only    kernels | fitness | handover | frame | acquisition | render | jitter\n"
+    "  --scenes  of the acquisition, 60 unless told; each method sees all of them\n"
     "  --json    writes the results to this file, too\n"
     "  --flags, --commit   how this was built, kept with the results\n";
 
@@ -40,6 +42,8 @@ int main(int argc, char** argv) {
                                              : nullptr;
     if (word == "--quick") {
       options.quick = true;
+    } else if (word == "--scenes" && i + 1 < argc && std::atoi(argv[i + 1]) > 0) {
+      options.scenes = std::atoi(argv[++i]);
     } else if (text != nullptr && i + 1 < argc) {
       *text = argv[++i];
     } else {
