@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kBattery_v = 16;
 constexpr double kBatteryResistance_ohm = 0.01;
+// A bus that has been silent for so long commands nobody, whatever was said before.
+constexpr Duration kSilence = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -49,9 +51,13 @@ void Motors::step(TimePoint now, RovPlant& plant) {
 void Motors::obey(TimePoint due, TimePoint told) {
   const std::span<const double> throttles = nodes_->step(due, heard_, said_);
   throttles_.assign(throttles.begin(), throttles.end());
-  const bool still = !nodes_->armed() && std::all_of(throttles_.begin(), throttles_.end(),
-                                                     [](double t) { return t == 0; });
-  if (turns_.empty() || turns_.back().still != still) turns_.push_back({told, still});
+  if (!heard_.empty()) last_heard_ = due;
+  const bool commanded = nodes_->armed() && due - last_heard_ < kSilence;
+  const bool turning =
+      std::any_of(throttles_.begin(), throttles_.end(), [](double t) { return t != 0; });
+  const bool was_still = turns_.empty() || turns_.back().still;
+  const bool still = !turning && (was_still || !commanded);
+  if (turns_.empty() || was_still != still) turns_.push_back({told, still});
 }
 
 void Motors::receive(TimePoint now) {

@@ -16,8 +16,9 @@
 
 namespace gannet::world {
 
-// From then on the drives are still (disarmed, and none told to turn) or not: the time on the bus
-// of the frame that told them, or of the node's own decision when commands stay away.
+// From then on the drives turn (one is told to), or are still (none is, and they are disarmed or
+// left alone by the bus): the time on the bus of the frame that told them, or of the nodes' own
+// decision when commands stay away.
 struct Turn {
   TimePoint time;
   bool still;
@@ -57,6 +58,7 @@ class Motors {
   std::unique_ptr<MotorNodes> nodes_;
   const Duration delay_;
   TimePoint last_step_ = {};
+  TimePoint last_heard_ = {};  // frame
   std::deque<Delayed> delayed_;
   std::vector<hal::CanFrame> heard_, said_;  // of one step
   std::vector<double> throttles_;

@@ -140,10 +140,27 @@ void Renderer::draw_rows(View& view, int first, int end) const {
   }
 }
 
+// Rows y and y + 1 show water alone, and all such rows are the same.
+bool Renderer::is_open_water(const View& view, int y) const {
+  return rows_repeat_ && view.target.plane[1] == nullptr &&
+         std::none_of(view.surfaces.begin(), view.surfaces.end(),
+                      [&](const Surface& s) { return y + 1 >= s.first_row() && y < s.end_row(); });
+}
+
 void Renderer::develop_rows(const View& view, std::uint64_t key, int first, int end,
                             Float4* scratch) const {
   const int width = view.camera.width;
+  const auto row_bytes = static_cast<std::size_t>(view.target.stride[0]);
+  std::uint8_t* open_water = nullptr;  // rows of it that are done
   for (int y = first; y < end; y += 2) {
+    if (is_open_water(view, y)) {
+      std::uint8_t* const here = view.target.plane[0] + static_cast<std::size_t>(y) * row_bytes;
+      if (open_water != nullptr) {
+        std::copy_n(open_water, 2 * row_bytes, here);
+        continue;
+      }
+      open_water = here;
+    }
     Float4* rows[2] = {scratch, scratch + width};
     for (int i = 0; i < 2; ++i) {
       blur_column(view.light.data(), width, view.camera.height, y + i, blur_y_, rows[i]);
@@ -183,6 +200,8 @@ void Renderer::render(const Scene& scene, const Transform<World, LeftCamera>& wo
   }
   sensor_.set_light(scene.light.lux);
   for (View& view : eyes_) place(scene, time_s, view);
+  rows_repeat_ = !config_.sensor.noise && blur_x_.size() == 1 && blur_y_.size() == 1 &&
+                 scene.particles.count == 0;
 
   const int tallest = std::max(rig_.left.height, rig_.right.height);
   const int widest = std::max(rig_.left.width, rig_.right.width);

@@ -67,6 +67,7 @@ class Renderer {
   void place(const Scene& scene, double time_s, View& view);
 
   void draw_rows(View& view, int first, int end) const;
+  bool is_open_water(const View& view, int y) const;
   void develop_rows(const View& view, std::uint64_t key, int first, int end, Float4* scratch) const;
 
   StereoRig rig_;
@@ -78,6 +79,7 @@ class Renderer {
   Sensor sensor_;
   Water water_of_table_;
   WaterTable water_;
+  bool rows_repeat_ = false;  // nothing is added to what surfaces show: no noise, blur or snow
   std::vector<View> eyes_;
   std::vector<std::vector<Float4>> scratch_;  // one a worker
 };

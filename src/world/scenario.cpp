@@ -183,6 +183,10 @@ void describe(Visitor& v, SceneScenario& c) {
            .max = 1e5,
            .unit = "mm",
            .help = "How far from the reference hand the textured ground is, along its view."});
+  v.field("detail", c.detail,
+          {.choices = {"full", "plain"},
+           .help = "plain: no ground, no blur, no noise, a fifth of the work; for emulated "
+                   "machines."});
   v.group("sensor", c.sensor, "The cameras' sensors.");
 }
 

@@ -55,6 +55,7 @@ struct SceneScenario {
   double caustics = 0;
   int snow = 0;  // particles in 8 m³
   double background_mm = 1500;
+  std::string detail = "full";  // full | plain
   SensorConfig sensor;
 };
 

@@ -80,6 +80,10 @@ Result<std::vector<std::string>> Simulation::make_cameras() {
 
   RendererConfig renderer_config;
   renderer_config.sensor = scenario_.scene.sensor;
+  if (scenario_.scene.detail == "plain") {
+    renderer_config.sensor.noise = false;
+    renderer_config.blur_x_px = renderer_config.blur_y_px = 0;
+  }
   Renderer renderer(rig_, std::move(pictures->textures), renderer_config, seed);
   auto models = make_models(scenario_, pictures->places, renderer, *parallel_, files_.folder());
   if (!models) return models.error();

@@ -26,7 +26,9 @@ Transform<Hand, Target> resting(const TargetScenario& target) {
 }  // namespace
 
 Stage::Stage(const Scenario& scenario, const StageTextures& textures, std::uint64_t seed)
-    : cover_texture_(textures.cover), water_(water_of(scenario.scene.water)) {
+    : has_ground_(scenario.scene.detail == "full"),
+      cover_texture_(textures.cover),
+      water_(water_of(scenario.scene.water)) {
   const Transform<World, Hand> reference = scenario.world_from_reference();
   for (std::size_t i = 0; i < scenario.targets.size(); ++i) {
     const TargetScenario& target = scenario.targets[i];
@@ -62,7 +64,7 @@ Scene Stage::scene(double time_s) const {
   scene.water = water_;
   scene.light = light_;
   scene.particles = snow_;
-  scene.background.push_back(background_);
+  if (has_ground_) scene.background.push_back(background_);
   for (std::size_t i = 0; i < things_.size(); ++i) {
     const Thing& thing = things_[i];
     const Transform<World, Target> stands = pose(static_cast<int>(i), time_s);

@@ -50,6 +50,7 @@ class Stage {
 
   std::vector<Thing> things_;
   SceneObject background_;
+  bool has_ground_;
   int cover_texture_;
   Water water_;
   Light light_;

@@ -73,6 +73,12 @@ TEST(ClosedLoop, holds_against_a_current) { expect_all_passed("rov_current"); }
 TEST(ClosedLoop, follows_with_frames_missing) { expect_all_passed("rov_dropped_frames"); }
 TEST(ClosedLoop, follows_the_papers_path) { expect_all_passed("rov_station_keeping"); }
 
+TEST(ClosedLoop, holds_on_frozen_and_backward_frames) { expect_all_passed("rov_camera_faults"); }
+TEST(ClosedLoop, stops_when_the_bus_is_off_or_down) { expect_all_passed("rov_bus_faults"); }
+TEST(ClosedLoop, endures_a_late_drive_and_stops_for_a_broken_one) {
+  expect_all_passed("rov_drive_faults");
+}
+
 TEST(ClosedLoop, gives_poses_without_a_vehicle) { expect_all_passed("poses_only"); }
 
 TEST(ClosedLoop, repeats_bit_for_bit) {

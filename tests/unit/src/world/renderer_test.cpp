@@ -310,6 +310,29 @@ TEST(Renderer, RepeatsBitForBitOnAnyNumberOfThreads) {
   EXPECT_FALSE(std::ranges::equal(a.left.bytes(), c.left.bytes()));
 }
 
+// Rows of open water are done once where nothing is added to them; planar pictures do each row.
+TEST(Renderer, RowsThatRepeatAreTheRowsThemselves) {
+  std::vector<Texture> textures;
+  textures.emplace_back(blot(64, 0.3), Texture::Edge::kClamp);
+  Renderer sut(small_rig(), std::move(textures), clean(), 1);
+  Scene scene;
+  scene.objects.push_back({0, {Eigen::Quaterniond::Identity(), {0.05, 0.1, 0.6}}, {0.2, 0.2}, 0});
+  Pictures packed = blank(small_rig());
+  Pictures planar = blank(small_rig(), hal::PixelFormat::kYuv422);
+  render(sut, scene, packed);
+  render(sut, scene, planar);
+  int bright = 0;
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      const std::uint8_t luma = packed.left.row(0, y)[2 * x];
+      ASSERT_EQ(luma, planar.left.row(0, y)[x]) << x << ", " << y;
+      ASSERT_EQ(packed.right.row(0, y)[2 * x], planar.right.row(0, y)[x]) << x << ", " << y;
+      bright += luma > 150;
+    }
+  }
+  EXPECT_GT(bright, 1000);
+}
+
 TEST(Renderer, EveryFormatSaysTheSameWithinItsChroma) {
   const StereoRig rig = small_rig();
   Renderer sut(rig, busy_textures(), clean(), 9);
