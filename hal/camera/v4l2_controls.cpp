@@ -97,10 +97,10 @@ Result<Setting> read_setting(const std::vector<V4l2Control>& controls, const std
     std::string all;
     for (const V4l2Control& one : controls) {
       known.push_back(one.name);
-      all += "\n  " + text_of(one);
+      all += (all.empty() ? "; the device has " : ", ") + one.name;
     }
     return refuse(device, "'" + name + "' is not there" + did_you_mean(name, known) +
-                              (all.empty() ? "; the device has none" : "; the device has" + all));
+                              (all.empty() ? "; the device has none" : all));
   }
   const auto number = number_of(*c, word);
   if (!number || !fits(*c, *number))
@@ -155,6 +155,8 @@ std::vector<V4l2Control> list_controls(V4l2System& system, int fd) {
 std::string text_of(const V4l2Control& c) {
   std::string text = c.name;
   if (c.type == V4L2_CTRL_TYPE_BUTTON) return text + " (button)";
+  if (c.type == V4L2_CTRL_TYPE_BITMASK)
+    return text + " (bits), now " + std::to_string(c.value.value_or(0));
   if (is_menu(c)) {
     for (const auto& [index, name] : c.menu)
       text += (index == c.menu.front().first ? " " : ", ") + std::to_string(index) + " " + name;

@@ -166,6 +166,12 @@ V4l2Taken V4l2Device::take(TimePoint now, CaptureCounters& counters, V4l2Image& 
   const bool is_theirs = std::exchange(slot.queued, false);
   if (is_theirs) --queued_;
   const V4l2Fault fault = judge_.judge(buffer, now);
+  // A stream's first image is not to be trusted: v4l2loopback hands out what lay in its buffer,
+  // seconds old, with a new stamp; sensors may have exposed it half.
+  if (std::exchange(is_first_, false)) {
+    if (is_theirs) queue(index);
+    return V4l2Taken::kNothing;
+  }
   count(fault, counters);
   counters.missed += judge_.missed();
   counters.dropped += judge_.missed();

@@ -48,7 +48,7 @@ class V4l2Device {
   // Whether the driver says that its stamps are of CLOCK_MONOTONIC.
   bool names_its_clock() const { return names_its_clock_; }
 
-  // Does not wait.
+  // Does not wait. The first image of the stream is passed over.
   V4l2Taken take(TimePoint now, CaptureCounters& counters, V4l2Image& image);
   bool all_home() const { return pool_->free_count() == count_; }
 
@@ -79,6 +79,7 @@ class V4l2Device {
   std::unique_ptr<LeasePool> pool_;
   V4l2Judge judge_{0, false};
   std::uint64_t number_ = 0;
+  bool is_first_ = true;
 };
 
 }  // namespace gannet::hal

@@ -97,11 +97,16 @@ Result<double> set_rate(V4l2System& system, int fd, const std::string& device,
   v4l2_captureparm& capture = parameters.parm.capture;
   const bool settable = system.ioctl(fd, VIDIOC_G_PARM, &parameters) == 0 &&
                         (capture.capability & V4L2_CAP_TIMEPERFRAME) != 0;
-  if (settable && config.rate_hz > 0) {
+  if (config.rate_hz > 0) {
+    v4l2_streamparm asked = parameters;
     // In millihertz, so that 29.97 is not rounded.
-    capture.timeperframe = {1000, static_cast<std::uint32_t>(std::lround(config.rate_hz * 1000))};
-    if (const int error = system.ioctl(fd, VIDIOC_S_PARM, &parameters); error != 0)
+    asked.parm.capture.timeperframe = {
+        1000, static_cast<std::uint32_t>(std::lround(config.rate_hz * 1000))};
+    const int error = system.ioctl(fd, VIDIOC_S_PARM, &asked);
+    if (error != 0 && settable)
       return does_not_fit(system, fd, device, config, std::strerror(-error));
+    // Asked of all: v4l2loopback takes a rate although it does not say that it can.
+    if (error == 0) parameters = asked;
   }
   const v4l2_fract& interval = capture.timeperframe;
   const double rate_hz =

@@ -1,5 +1,7 @@
 #include "hal/camera/v4l2_judge.hpp"
 
+#include <utility>
+
 namespace gannet::hal {
 namespace {
 
@@ -22,13 +24,12 @@ V4l2Fault V4l2Judge::judge(const v4l2_buffer& buffer, TimePoint now) {
 }
 
 // Unsigned, so that the wrap at 2³² is a step like any other. A number that repeats, goes back or
-// jumps far tells nothing (v4l2loopback: always 0 for some writers). Nor does the step after the
-// first frame, to which v4l2loopback gives 0 whatever the writer's number is.
+// jumps far tells nothing (v4l2loopback: always 0 for some writers). Nor does a step from 0: that
+// is what v4l2loopback says until the writer's next frame comes.
 void V4l2Judge::count_missed(std::uint32_t sequence) {
-  const std::uint32_t step = sequence - sequence_;
-  sequence_ = sequence;
-  missed_ = seen_ >= 2 && step >= 2 && step <= kMostMissed ? step - 1 : 0;
-  ++seen_;
+  const std::uint32_t last = std::exchange(sequence_, sequence);
+  const std::uint32_t step = sequence - last;
+  missed_ = last != 0 && step >= 2 && step <= kMostMissed ? step - 1 : 0;
 }
 
 V4l2Fault V4l2Judge::judge_stamp(const v4l2_buffer& buffer, TimePoint now) {

@@ -36,7 +36,6 @@ class V4l2Judge {
 
   std::size_t least_bytes_;
   bool any_clock_;
-  std::uint64_t seen_ = 0;
   std::uint32_t sequence_ = 0;
   std::uint32_t missed_ = 0;
   TimePoint stamp_ = {};

@@ -13,7 +13,7 @@
 namespace gannet::hal {
 
 // Pairs images whose stamps are at most the tolerance apart. Images of each side come in the order
-// of their stamps; one that has missed its twin, or waits while three newer ones came, goes home.
+// of their stamps; one that has missed its twin, or waits while three newer ones come, goes home.
 class PairByTime {
  public:
   enum Side { kLeft, kRight };
@@ -32,7 +32,7 @@ class PairByTime {
   Duration largest_skew() const { return largest_skew_; }
 
  private:
-  static constexpr std::size_t kMostWaiting = 4;
+  static constexpr std::size_t kMostWaiting = 3;
   struct Queue {
     std::array<V4l2Image, kMostWaiting> images;  // oldest first
     std::size_t count = 0;

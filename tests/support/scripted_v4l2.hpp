@@ -227,8 +227,20 @@ class ScriptedV4l2 final : public hal::V4l2System {
     frame.flags = device.clock;
     frame.fill = static_cast<std::uint8_t>(frame.sequence + 1);
     device.next += device.period;
-    const bool comes = !device.alter || device.alter(frame);
-    if (!comes || (device.waiting.empty() && !device.loops_back)) return;
+    if (!device.alter || device.alter(frame)) give(device, frame);
+  }
+
+  // At the start of a stream, as v4l2loopback: what lay in the buffer, with a new stamp.
+  void give_stale(Device& device) {
+    Frame frame;
+    frame.stamp = now_;
+    frame.flags = device.clock;
+    frame.fill = 0xee;
+    give(device, frame);
+  }
+
+  void give(Device& device, const Frame& frame) {
+    if (device.waiting.empty() && !device.loops_back) return;
     int index = static_cast<int>(frame.sequence % device.memory.size());
     if (!device.loops_back) {
       index = device.waiting.front();
@@ -288,6 +300,7 @@ class ScriptedV4l2 final : public hal::V4l2System {
       case VIDIOC_STREAMON:
         if (d.start_error != 0) return d.start_error;
         d.streaming = true;
+        give_stale(d);
         d.sequence = 0;
         d.next = now_ + d.period;
         return 0;
@@ -377,7 +390,7 @@ class ScriptedV4l2 final : public hal::V4l2System {
   }
   static int parameters(Device& d, unsigned long request, v4l2_streamparm& p) {
     auto& capture = p.parm.capture;
-    if (request == VIDIOC_S_PARM) {
+    if (request == VIDIOC_S_PARM && d.rate_can_be_set) {
       const int asked =
           static_cast<int>((capture.timeperframe.denominator + capture.timeperframe.numerator / 2) /
                            std::max(1u, capture.timeperframe.numerator));
@@ -387,7 +400,7 @@ class ScriptedV4l2 final : public hal::V4l2System {
             d.interval = {1, static_cast<std::uint32_t>(rate)};
     }
     capture = {};
-    capture.capability = d.rate_can_be_set ? V4L2_CAP_TIMEPERFRAME : 0;
+    capture.capability = d.rate_can_be_set && !d.loops_back ? V4L2_CAP_TIMEPERFRAME : 0;
     capture.timeperframe = d.interval;
     return 0;
   }

@@ -157,6 +157,18 @@ TEST_F(V4l2PairTest, unplugged_it_is_lost_and_plugged_in_again_it_is_back) {
   ASSERT_TRUE(until(CaptureStatus::kFrame));
 }
 
+TEST_F(V4l2PairTest, what_lay_in_a_buffer_is_not_taken_for_new) {
+  ASSERT_EQ(start_pair(), "started");
+  ASSERT_TRUE(until(CaptureStatus::kFrame));
+  system_.change([&] { left_.alter = right_.alter = [](Frame&) { return false; }; });
+  const std::uint64_t frames = sut_->counters().frames;
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(until(CaptureStatus::kLost));
+  const TimePoint end = linux_os::monotonic_now() + milliseconds(100);
+  while (linux_os::monotonic_now() < end) EXPECT_NE(capture(), CaptureStatus::kFrame);
+  EXPECT_GT(left_.opened, 1);
+  EXPECT_EQ(sut_->counters().frames, frames);
+}
+
 TEST_F(V4l2PairTest, while_lost_it_answers_at_the_time_out) {
   ASSERT_EQ(start_pair(), "started");
   system_.unplug(left_);

@@ -78,6 +78,11 @@ TEST_F(V4l2FormatTest, a_fixed_rate_is_taken_if_it_is_the_wanted_one) {
   EXPECT_TRUE(negotiated());
 }
 
+TEST_F(V4l2FormatTest, a_rate_is_asked_of_a_driver_that_does_not_say_it_can) {
+  device_.loops_back = true;
+  EXPECT_EQ(negotiated()->rate_hz, 25);
+}
+
 TEST_F(V4l2FormatTest, a_device_without_any_format_says_so) {
   device_.modes.clear();
   EXPECT_EQ(refusal(), "cam: does not give yuyv 16 × 4 at 25 Hz (Invalid argument)");
