@@ -14,7 +14,7 @@ play() {
   until_true 10 restarted
   mark restarted
   kill $HOG
-  sleep 2.5
+  sleep 5
   mark "state $(state)"
 }
 restarted() { [ "$(systemctl show -P NRestarts gannetd)" -ge 1 ]; }
