@@ -21,6 +21,7 @@ enum class Verb {
   kReset,
   kStop,
   kTarget,
+  kManual,
   kGoal,
   kBlind,
   kSee,

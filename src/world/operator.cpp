@@ -24,6 +24,11 @@ Method method_of(const Action& action) {
       return {"reset"};
     case Verb::kStop:
       return {"stop"};
+    case Verb::kManual: {
+      Json velocity = Json::array();
+      for (const double mm_s : action.numbers) velocity.push_back(mm_s / 1000);
+      return {"manual", {{"linear_m_s", velocity}, {"angular_rad_s", {0.0, 0.0, 0.0}}}};
+    }
     case Verb::kGoal:
       return {"goal", {{"mm", action.numbers}}};
     case Verb::kTarget:

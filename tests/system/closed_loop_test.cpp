@@ -70,6 +70,7 @@ TEST(ClosedLoop, servoes_by_cia402_drives_and_stops_at_a_fault) { expect_all_pas
 TEST(ClosedLoop, holds_while_the_cameras_are_blind) { expect_all_passed("rov_camera_blind"); }
 
 TEST(ClosedLoop, holds_against_a_current) { expect_all_passed("rov_current"); }
+TEST(ClosedLoop, goes_where_a_hand_steers_and_comes_back) { expect_all_passed("rov_manual"); }
 TEST(ClosedLoop, follows_with_frames_missing) { expect_all_passed("rov_dropped_frames"); }
 TEST(ClosedLoop, follows_the_papers_path) { expect_all_passed("rov_station_keeping"); }
 
