@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 
 #include "src/image_file/image_file.hpp"
@@ -65,11 +66,20 @@ void tell_bad_arguments(std::span<const std::string> args, const std::string& te
   if (json) print_json(json_of_error(text));
 }
 
+// Before the search: where nothing is found, no picture would show that it could not be written.
+Result<void> check_overlay(const std::string& path) {
+  if (!path.ends_with(".png")) return Error{"--overlay: '" + path + "' does not end in .png"};
+  const auto folder = std::filesystem::path(path).parent_path();
+  std::error_code error;
+  if (folder.empty() || std::filesystem::is_directory(folder, error)) return {};
+  return Error{"--overlay: '" + path + "': there is no folder '" + folder.string() + "'"};
+}
+
 int run(const Arguments& arguments) {
   const bool json = arguments.flag("json");
-  if (const std::string path = arguments.text("overlay");
-      arguments.given("overlay") && !path.ends_with(".png")) {
-    return refuse(json, "--overlay: '" + path + "' does not end in .png");
+  if (arguments.given("overlay")) {
+    if (const auto usable = check_overlay(arguments.text("overlay")); !usable)
+      return refuse(json, usable.error().text);
   }
   auto locator = Locator::create(arguments);
   if (!locator) return refuse(json, locator.error().text);

@@ -234,7 +234,8 @@ class Servo {
                                       : safety::Request::kNone;
     if (command.by_hand || command.request != safety::Request::kNone) commands_.push(command);
     if (i % 300 == 0) params_.write(servo::ServoParams{});
-    estop_.says.level = i % 1000 == 999 ? hal::Level::kHigh : hal::Level::kLow;
+    // Pressed for a cycle, and released for long enough before the reset.
+    estop_.says.level = i % 1000 == 900 ? hal::Level::kHigh : hal::Level::kLow;
     loop_->step(now);
     Event event;
     while (events_.take(event)) {
