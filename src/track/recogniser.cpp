@@ -29,6 +29,15 @@ SearchVolume volume_of(const TrackConfig& c) {
           c.half_width_y_m, radians(c.tilt_deg), radians(c.roll_deg)};
 }
 
+// How far a pose is from the one whose covariance it is given, as a covariance.
+Matrix6d spread(const Transform<LeftCamera, Target>& pose,
+                const Transform<LeftCamera, Target>& measured) {
+  const Eigen::AngleAxisd turn(measured.rotation * pose.rotation.conjugate());
+  Eigen::Matrix<double, 6, 1> apart;
+  apart << measured.translation - pose.translation, turn.angle() * turn.axis();
+  return apart * apart.transpose();
+}
+
 }  // namespace
 
 Recogniser::Recogniser(const TrackConfig& config, const StereoRig& rig, TargetKind kind,
@@ -357,13 +366,42 @@ Recognition Recogniser::follow(const vision::PreparedFrame& frame,
     spent += config_.watch_candidates * target_.cost(fitness_->levels(target_) - 1);
   }
   Recognition out = finish(frame, start, score_one(frame, 0, start), spent);
-  // A place that looks better from afar: whoever asked may want to look at it.
-  constexpr float kClearly = 0.03f;
-  if (with_watch && watch_.best_score() > static_cast<float>(out.coarse_fitness) + kClearly) {
-    out.challenged = true;
-    out.challenger = space_.decode(watch_.best()).pose();
-  }
+  if (with_watch) challenge(frame, out);
   return out;
+}
+
+// What looks better from afar, and whoever asked may want to look at: another place, or the same
+// place tilted the other way, which is the wrong answer that resembles the right one most.
+void Recogniser::challenge(const vision::PreparedFrame& frame, Recognition& own) {
+  constexpr float kClearly = 0.03f;
+  constexpr float kTilted = 0.1f;  // of the range of a tilt, from square
+  const int level = fitness_->levels(target_) - 1;
+  auto to_beat = static_cast<float>(own.coarse_fitness);
+  if (watch_.best_score() > to_beat + kClearly) {
+    to_beat = watch_.best_score();
+    own.challenged = true;
+    own.challenger = space_.decode(watch_.best()).pose();
+  }
+  std::array<float, 8> genes = {};
+  space_.encode(own.left_from_target, genes);
+  constexpr std::size_t kTiltX = 3, kTiltY = 4;
+  for (const bool flip_x : {false, true}) {
+    for (const bool flip_y : {false, true}) {
+      if (!flip_x && !flip_y) continue;
+      if (flip_x && std::abs(genes[kTiltX] - 0.5f) < kTilted) continue;
+      if (flip_y && std::abs(genes[kTiltY] - 0.5f) < kTilted) continue;
+      std::array<float, 8> other = genes;
+      if (flip_x) other[kTiltX] = 1 - genes[kTiltX];
+      if (flip_y) other[kTiltY] = 1 - genes[kTiltY];
+      const vision::Hypothesis mirrored = space_.decode({other.data(), 6});
+      const float score = score_one(frame, level, mirrored);
+      own.evaluations += target_.cost(level);
+      if (score <= to_beat) continue;
+      to_beat = score;
+      own.challenged = true;
+      own.challenger = mirrored.pose();
+    }
+  }
 }
 
 double Recogniser::found_threshold() const {
@@ -400,14 +438,19 @@ Recognition Recogniser::finish(const vision::PreparedFrame& frame, const vision:
     out.evaluations += 1;
     // Nearest-pixel scores are rough by about this much.
     constexpr double kRough = 0.01;
-    out.covariance = refined.covariance;
-    // The refinement knows no box. Where it leads out of what was asked for there is no optimum in
-    // it: the best pose on its border is none.
-    has_optimum = space_.contains(refined.left_from_target);
-    if (static_cast<double>(score) >= out.fitness - kRough && has_optimum) {
+    // The refinement knows no box, and a measurement of a target near its border may well fall
+    // beyond it: then the answer is the search's own, which does not. An optimum far outside is
+    // none of what was asked for.
+    constexpr SearchSpace::Slack kNear = {0.05, 0.26};
+    has_optimum = space_.contains(refined.left_from_target, kNear);
+    if (static_cast<double>(score) >= out.fitness - kRough &&
+        space_.contains(refined.left_from_target)) {
       out.left_from_target = refined.left_from_target;
       out.fitness = static_cast<double>(score);
+      out.refined = true;
     }
+    out.covariance = refined.covariance;
+    if (!out.refined) out.covariance += spread(out.left_from_target, refined.left_from_target);
   }
   const vision::Hypothesis answer = vision::Hypothesis::from(out.left_from_target);
   float coarse = 0;

@@ -85,6 +85,7 @@ class Recogniser {
   void note_rivals(int n);
   bool elsewhere(const std::array<double, 3>& place, const vision::Hypothesis& answer) const;
   float best_rival(const vision::Hypothesis& answer) const;
+  void challenge(const vision::PreparedFrame& frame, Recognition& own);
   void watch(const vision::PreparedFrame& frame, const vision::Hypothesis& own, Parallel& parallel);
   float score_one(const vision::PreparedFrame& frame, int level, const vision::Hypothesis& q);
   Recognition finish(const vision::PreparedFrame& frame, const vision::Hypothesis& best,

@@ -34,6 +34,7 @@ struct Budget {
 
 struct Recognition {
   bool found = false;
+  bool refined = false;  // below a pixel; else the pose is the search's own
   TrackReason reason = TrackReason::kNotFound;
   Transform<LeftCamera, Target> left_from_target;
   Matrix6d covariance = Matrix6d::Zero();  // order as PoseEstimate

@@ -115,16 +115,18 @@ Eigen::Vector3d SearchSpace::angles_of(const Eigen::Quaterniond& rotation) const
   return {std::asin(std::clamp(-n.y(), -1.0, 1.0)), std::atan2(n.x(), n.z()), 0};
 }
 
-bool SearchSpace::contains(const Transform<LeftCamera, Target>& pose) const {
+bool SearchSpace::contains(const Transform<LeftCamera, Target>& pose, const Slack& slack) const {
   constexpr double kRounding = 1e-6;  // metres and radians
   const Eigen::Vector3d t = pose.translation;
   const Eigen::Vector3d angles = angles_of(pose.rotation).cwiseAbs();
-  if (t.z() < 1 / near_ - kRounding || t.z() > 1 / far_ + kRounding) return false;
-  if (angles.head<2>().maxCoeff() > tilt_ + kRounding) return false;
+  const double length = kRounding + slack.depth_share * std::abs(t.z());
+  const double angle = kRounding + slack.angle_rad;
+  if (t.z() < 1 / near_ - length || t.z() > 1 / far_ + length) return false;
+  if (angles.head<2>().maxCoeff() > tilt_ + angle) return false;
   if (three_) return true;
-  return angles.z() <= roll_ + kRounding && t.x() >= x_.low(t.z()) - kRounding &&
-         t.x() <= x_.high(t.z()) + kRounding && t.y() >= y_.low(t.z()) - kRounding &&
-         t.y() <= y_.high(t.z()) + kRounding;
+  return angles.z() <= roll_ + angle && t.x() >= x_.low(t.z()) - length &&
+         t.x() <= x_.high(t.z()) + length && t.y() >= y_.low(t.z()) - length &&
+         t.y() <= y_.high(t.z()) + length;
 }
 
 void SearchSpace::encode(const Transform<LeftCamera, Target>& pose, std::span<float> genes) const {

@@ -26,8 +26,14 @@ class SearchSpace {
 
   int dimension() const { return three_ ? 3 : 6; }
   vision::Hypothesis decode(std::span<const float> genes) const;
-  // Whether a pose lies inside the box, up to rounding.
-  bool contains(const Transform<LeftCamera, Target>& pose) const;
+  // Whether a pose lies inside the box, or beyond it by no more than this share of its depth and
+  // this angle.
+  struct Slack {
+    double depth_share = 0;
+    double angle_rad = 0;
+  };
+  bool contains(const Transform<LeftCamera, Target>& pose, const Slack& slack) const;
+  bool contains(const Transform<LeftCamera, Target>& pose) const { return contains(pose, {}); }
   // The genes of a pose; coordinates outside the box are put on its border.
   void encode(const Transform<LeftCamera, Target>& pose, std::span<float> genes) const;
 

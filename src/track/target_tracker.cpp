@@ -163,11 +163,15 @@ class Tracker final : public TargetTracker {
       frame_.prepare_fine(left, right, wanted.left, wanted.right);
       Recognition r = sut.follow(frame_, placed, with_watch, parallel);
       const Recogniser::Regions used = sut.region(r.left_from_target, kLeft);
-      r.found = r.found && used.ok && contains(wanted.left, used.left) &&
+      // What was placed on coarse pixels alone is no measurement.
+      r.found = r.found && r.refined && used.ok && contains(wanted.left, used.left) &&
                 contains(wanted.right, used.right);
       return r;
     };
     Recognition own = look_at(predicted, true);
+    // A sudden loss of fitness may be another attitude: only a whole search tells.
+    constexpr double kSudden = 0.06;
+    if (own.fitness < usual_fitness_ - kSudden) own.found = false;
     if (!own.found || !own.challenged) return own;
     // What lost is let alone for a while; what won is looked at until it is believed.
     constexpr int kPause = 15;  // frames
@@ -220,6 +224,8 @@ class Tracker final : public TargetTracker {
     } else {
       speed_.setZero();
     }
+    constexpr double kSlowly = 0.1;  // light and water change over many frames
+    usual_fitness_ += (has_last_ ? kSlowly : 1) * (r.fitness - usual_fitness_);
     doubts_ = 0;
     last_pose_ = r.left_from_target;
     last_time_ = time;
@@ -253,7 +259,8 @@ class Tracker final : public TargetTracker {
   TimePoint last_time_ = {};
   Eigen::Vector3d speed_ = Eigen::Vector3d::Zero();
   int doubts_ = 0;
-  int pause_ = 0;  // frames until a challenger may be looked at again
+  double usual_fitness_ = 0;  // of late
+  int pause_ = 0;             // frames until a challenger may be looked at again
 };
 
 }  // namespace

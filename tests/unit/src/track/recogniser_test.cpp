@@ -63,6 +63,24 @@ TEST_F(InAScene, finds_the_target_from_nothing) {
   }
 }
 
+// Its measured place may fall a little outside: it is found all the same, and the answer is inside.
+TEST_F(InAScene, finds_a_target_that_is_barely_inside_the_volume) {
+  Random random(10);
+  const auto either = [&](double scale) { return scale * (2 * random.uniform() - 1); };
+  for (int trial = 0; trial < 6; ++trial) {
+    const double tilt = 28 + either(5);
+    const auto truth = pose_at(0.06 + either(0.05), either(0.05), 0.6, tilt, either(20), 0);
+    TrackConfig config;
+    config.evaluations = 6000;
+    config.tilt_deg = tilt + 0.1;
+    config.z_max_m = 0.6 + 2e-4;
+    const Recognition got = find(config, &truth, serial);
+    ASSERT_TRUE(got.found) << trial;
+    EXPECT_LE(got.left_from_target.translation.z(), config.z_max_m + 1e-6);
+    EXPECT_LT((got.left_from_target.translation - truth.translation).norm(), 0.006) << trial;
+  }
+}
+
 TEST_F(InAScene, says_not_found_where_there_is_no_target) {
   TrackConfig config;
   config.evaluations = 6000;

@@ -91,6 +91,34 @@ TEST_F(Tracking, what_leaps_away_from_the_prediction_is_found_in_the_same_frame)
   EXPECT_LT((got.left_from_target.translation - pose.translation).norm(), 0.005);
 }
 
+// A leap to another attitude: tilted the wrong way the model resembles the picture, too.
+TEST_F(Tracking, after_a_leap_no_wrong_attitude_is_kept) {
+  if (!test::kCountsHeap) GTEST_SKIP() << "too slow under a sanitizer";
+  config.evaluations_tracking = 2000;
+  sut = TargetTracker::create(config, scene.rig, {scene.model(400).value()}).value();
+  Random random(5);
+  const auto either = [&](double scale) { return scale * (2 * random.uniform() - 1); };
+  constexpr int kTrials = 24;
+  int wrong = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    ASSERT_TRUE(sut->choose_model(0, 7));
+    const auto attitude = [&] { return std::array{either(35), either(35), either(35)}; };
+    auto a = attitude();
+    auto pose = pose_at(0.06 + either(0.04), either(0.04), 0.6, a[0], a[1], a[2]);
+    for (int i = 0; i < 2; ++i) see(&pose);
+    const Eigen::Vector3d leapt =
+        pose.translation + Eigen::Vector3d(either(0.05), either(0.05), either(0.08));
+    a = attitude();
+    pose = pose_at(leapt.x(), leapt.y(), leapt.z(), a[0], a[1], a[2]);
+    PoseEstimate got;
+    for (int i = 0; i < 6; ++i) got = see(&pose);
+    const double turned = got.left_from_target.rotation.angularDistance(pose.rotation);
+    wrong += got.found && turned > 0.2;
+    EXPECT_TRUE(got.found) << trial;
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
 TEST_F(Tracking, a_rectangle_becomes_a_metric_model_and_is_followed) {
   auto pose = pose_at(0.05, -0.01, 0.6, 10, -10, 0);
   const auto centre = scene.rig.left.project(pose.translation).value();
