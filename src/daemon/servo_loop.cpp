@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "platform/linux/clock.hpp"
 #include "src/telemetry/event_codes.hpp"
@@ -32,6 +33,8 @@ Twist<LeftCamera> seen_by_camera(const Twist<Body>& body,
 
 double largest_sigma(const Matrix12d& covariance) {
   const Eigen::Matrix3d position = covariance.topLeftCorner<3, 3>();
+  // Not a number: as uncertain as can be.
+  if (!position.allFinite()) return std::numeric_limits<double>::infinity();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(position, Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(0.0, solver.eigenvalues()(2)));
 }
@@ -228,7 +231,9 @@ void ServoLoop::steer(TimePoint now) {
   const Duration dt = last_ == TimePoint{} ? period_ : now - last_;
   last_ = now;
   const Permit permit = report_.outputs.permit;
-  MotionWish wish = links_.law->update(report_.target, goal_, permit, dt);
+  // While a hand steers the law must not wind up for the moment when it lets go.
+  const Permit for_law = report_.outputs.by_hand ? Permit::kHoldOnly : permit;
+  MotionWish wish = links_.law->update(report_.target, goal_, for_law, dt);
   report_.error = links_.law->error();
   if (report_.outputs.by_hand) {
     wish = {};
@@ -237,7 +242,8 @@ void ServoLoop::steer(TimePoint now) {
   const vehicle::Reach reach = links_.vehicle->update(wish, permit, dt, setpoints_);
   report_.reach_scale = reach.scale;
   note_own_motion(now);
-  if (!setpoints_are_finite() && !internal_fault_) {
+  const bool is_finite = wish.velocity.linear.allFinite() && wish.velocity.angular.allFinite();
+  if ((!is_finite || !setpoints_are_finite()) && !internal_fault_) {
     internal_fault_ = true;
     links_.events->raise(make_event(telemetry::kInternalFault, now, kLaw));
   }

@@ -263,10 +263,10 @@ void Daemon::stop() {
   if (facts_.stop.exchange(true)) return;
   to_vision_.wake();
   if (archive_) archive_->line().wake();
-  for (auto* thread : {&servo_thread_, &capture_thread_, &vision_thread_, &archive_thread_}) {
-    thread->join();
-  }
+  // The motors first: the others may be in a driver or on a slow disk for long.
+  servo_thread_.join();
   if (servo_) servo_->shut_down(clock_->now());
+  for (auto* thread : {&capture_thread_, &vision_thread_, &archive_thread_}) thread->join();
   if (archive_) archive_->step(clock_->now());
 }
 

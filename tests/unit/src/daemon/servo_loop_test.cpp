@@ -298,6 +298,41 @@ TEST_F(ServoLoopTest, a_setpoint_that_is_no_number_never_reaches_a_motor) {
   EXPECT_EQ(report_.read().supervisor.cause, Cause::kInternalFault);
 }
 
+TEST_F(ServoLoopTest, a_covariance_that_is_no_number_is_no_certainty) {
+  start_servoing();
+  for (int i = 0; i < 10; ++i) {
+    SeenTarget seen;
+    seen.estimate.capture_time = now_ - milliseconds(30);
+    seen.estimate.target_id = 1;
+    seen.estimate.found = true;
+    seen.estimate.state = TrackState::kLocked;
+    seen.estimate.left_from_target.translation = {0.1, 0, 0.6};
+    seen.estimate.covariance = Matrix6d::Constant(std::numeric_limits<double>::quiet_NaN());
+    targets_.push(seen);
+    step(10);
+  }
+  EXPECT_NE(report_.read().outputs.permit, Permit::kFull);
+}
+
+// What the law would have done meanwhile must not come all at once.
+TEST_F(ServoLoopTest, a_hand_that_lets_go_leaves_no_leap_behind) {
+  start_servoing();
+  const auto lock = [&] {
+    see(0.4);
+    step(2);
+  };
+  for (int i = 0; i < 100; ++i) {
+    push_hand(0);
+    lock();
+  }
+  ASSERT_TRUE(report_.read().outputs.by_hand);
+  for (int i = 0; i < 200 && report_.read().outputs.by_hand; ++i) lock();
+  ASSERT_FALSE(report_.read().outputs.by_hand);
+  const double first = drives_.largest();
+  for (int i = 0; i < 50; ++i) lock();
+  EXPECT_LT(first, 0.5 * drives_.largest());
+}
+
 TEST_F(ServoLoopTest, too_many_overruns_are_a_fault) {
   start_servoing();
   now_ += 30 * kPeriod;
