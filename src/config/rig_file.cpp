@@ -187,6 +187,17 @@ Transform<To, From> motion_of(const MotionTable& table, const std::string& key, 
           Eigen::Map<const Eigen::Vector3d>(table.translation_m.data())};
 }
 
+// All that looks at a pair goes over both images at once.
+void require_one_size(const StereoRig& rig, Reading& r) {
+  const auto compare = [&r](const char* key, int right, int left) {
+    if (right != left)
+      r.refuse(key, std::to_string(right) + " px must be the left camera's, " +
+                        std::to_string(left) + " px");
+  };
+  compare("right.width", rig.right.width, rig.left.width);
+  compare("right.height", rig.right.height, rig.left.height);
+}
+
 StereoRig rig_of(Reading& r) {
   StereoRig rig;
   rig.left = camera_of(r.tables.left, "left", r);
@@ -213,6 +224,7 @@ Result<StereoRig> read(TomlValue root, const std::string& name) {
   require_all(r);
   if (!r.problems.empty()) return r.problems.error();
   StereoRig rig = rig_of(r);
+  require_one_size(rig, r);
   if (!r.problems.empty()) return r.problems.error();
   for (const RigProblem& problem : problems_of(rig)) r.refuse(problem.key, problem.text);
   if (!r.problems.empty()) return r.problems.error();

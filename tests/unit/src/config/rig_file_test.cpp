@@ -122,6 +122,13 @@ TEST(RigFile, each_fault_is_told_with_its_line) {
             "rig.toml:3: left.heigth: unknown key (did you mean height?)");
 }
 
+TEST(RigFile, both_cameras_have_one_size) {
+  EXPECT_EQ(error_of(kLeft + replaced(kRight, "width = 640", "width = 320") + kMotion),
+            "rig.toml:11: right.width: 320 px must be the left camera's, 640 px");
+  EXPECT_EQ(error_of(kLeft + replaced(kRight, "height = 480", "height = 400") + kMotion),
+            "rig.toml:12: right.height: 400 px must be the left camera's, 480 px");
+}
+
 TEST(RigFile, a_port_with_content_is_refused_for_now) {
   EXPECT_EQ(error_of(kGood + "[port]\nthickness_m = 0.01\n").substr(0, 30),
             "rig.toml:20: port: refraction ");
