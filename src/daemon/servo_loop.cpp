@@ -161,7 +161,9 @@ void ServoLoop::read_targets(TimePoint now) {
   SeenTarget seen;
   while (links_.targets->pop(seen)) {
     track_state_ = seen.estimate.state;
-    if (seen.estimate.reason == TrackReason::kNoTarget) filter_.clear();
+    const bool is_other = seen.estimate.target_id != target_id_;
+    target_id_ = seen.estimate.target_id;
+    if (is_other || seen.estimate.reason == TrackReason::kNoTarget) filter_.clear();
     const track::FilterResult result = filter_.update(seen.estimate, now);
     if (result == track::FilterResult::kReset || result == track::FilterResult::kStarted) {
       links_.events->raise(make_event(telemetry::kFilterReset, now, seen.estimate.target_id));

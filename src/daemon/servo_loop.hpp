@@ -84,7 +84,8 @@ class ServoLoop {
   bool internal_fault_ = false;
   std::int64_t untold_overruns_ = 0;
   TimePoint overruns_told_ = {};
-  SeenTarget newest_;  // found, and not yet acted on
+  std::uint32_t target_id_ = 0;  // chosen, as vision says
+  SeenTarget newest_;            // found, and not yet acted on
   bool newest_is_new_ = false;
   std::vector<hal::DriveSetpoint> setpoints_;
   std::vector<hal::CanFrame> out_;

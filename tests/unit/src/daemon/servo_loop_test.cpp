@@ -298,6 +298,18 @@ TEST_F(ServoLoopTest, a_setpoint_that_is_no_number_never_reaches_a_motor) {
   EXPECT_EQ(report_.read().supervisor.cause, Cause::kInternalFault);
 }
 
+TEST_F(ServoLoopTest, another_target_makes_the_old_ones_pose_invalid_at_once) {
+  start_servoing();
+  ASSERT_TRUE(report_.read().target.valid);
+  SeenTarget searching;
+  searching.estimate.target_id = 2;
+  searching.estimate.reason = TrackReason::kNotFound;
+  targets_.push(searching);
+  step();
+  EXPECT_FALSE(report_.read().target.valid);
+  EXPECT_NE(report_.read().outputs.permit, Permit::kFull);
+}
+
 TEST_F(ServoLoopTest, a_covariance_that_is_no_number_is_no_certainty) {
   start_servoing();
   for (int i = 0; i < 10; ++i) {
