@@ -25,14 +25,16 @@ Result<void> write(const std::string& path, const Result<std::vector<std::uint8_
   return linux_os::write_file(path, std::span<const std::uint8_t>(*bytes));
 }
 
-Raster8 mask_of(const Raster8& rgba) {
+// From all 16 bits: what is not zero stays so, however dark.
+Raster8 mask_of(const Raster16& rgba) {
   Raster8 mask(rgba.width, rgba.height, 1);
   bool transparent = false;
   for (std::size_t i = 0; i < mask.samples.size(); ++i)
-    transparent = transparent || rgba.samples[4 * i + 3] != 255;
+    transparent = transparent || rgba.samples[4 * i + 3] != 0xffff;
   for (std::size_t i = 0; i < mask.samples.size(); ++i) {
-    const std::uint8_t* pixel = &rgba.samples[4 * i];
-    mask.samples[i] = transparent ? pixel[3] : std::max({pixel[0], pixel[1], pixel[2]});
+    const std::uint16_t* pixel = &rgba.samples[4 * i];
+    const int value = transparent ? pixel[3] : std::max({pixel[0], pixel[1], pixel[2]});
+    mask.samples[i] = static_cast<std::uint8_t>(value == 0 ? 0 : std::max(1, value >> 8));
   }
   return mask;
 }
@@ -62,7 +64,7 @@ Result<Raster8> read_png_rgba(const std::string& path) {
 Result<Raster8> read_mask(const std::string& path) {
   return read(path, [](std::span<const std::uint8_t> bytes) -> Result<Raster8> {
     if (is_png(bytes)) {
-      const Result<Raster8> rgba = decode_png8(bytes, 4);
+      const Result<Raster16> rgba = decode_png16(bytes, 4);
       if (!rgba) return rgba.error();
       return mask_of(*rgba);
     }

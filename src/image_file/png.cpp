@@ -238,8 +238,8 @@ Result<Raster8> decode_png8(std::span<const std::uint8_t> bytes, int channels) {
   return decode<std::uint8_t>(bytes, channels);
 }
 
-Result<Raster16> decode_png16(std::span<const std::uint8_t> bytes) {
-  return decode<std::uint16_t>(bytes, 1);
+Result<Raster16> decode_png16(std::span<const std::uint8_t> bytes, int channels) {
+  return decode<std::uint16_t>(bytes, channels);
 }
 
 Result<std::vector<std::uint8_t>> encode_png(const Raster8& raster) {

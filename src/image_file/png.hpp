@@ -24,8 +24,8 @@ Result<hal::Image> decode_png(std::span<const std::uint8_t> bytes);
 // channels 1, 3 or 4, 8 bits each. A PNG without alpha is opaque; grey of colours is BT.601 luma.
 Result<Raster8> decode_png8(std::span<const std::uint8_t> bytes, int channels);
 
-// Grey with all its 16 bits; 8 bits are widened (0xAB → 0xABAB).
-Result<Raster16> decode_png16(std::span<const std::uint8_t> bytes);
+// The same with all its 16 bits; 8 bits are widened (0xAB → 0xABAB).
+Result<Raster16> decode_png16(std::span<const std::uint8_t> bytes, int channels = 1);
 
 // Error: sizes that do not fit together.
 Result<std::vector<std::uint8_t>> encode_png(const Raster8& raster);

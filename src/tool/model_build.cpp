@@ -107,11 +107,13 @@ Result<vision::PhotoPatch> build(const Arguments& arguments) {
   const hal::ImageView background =
       photos->background ? photos->background->view() : hal::ImageView{};
   const hal::ImageView mask = photos->mask ? photos->mask->view() : hal::ImageView{};
+  const std::string subject =
+      arguments.text("target") + (photos->mask ? " with " + arguments.text("mask") : "");
   auto patch = vision::cut_out({.target = photos->target.view(),
                                 .background = photos->background ? &background : nullptr,
                                 .mask = photos->mask ? &mask : nullptr,
                                 .distance_m = arguments.number("distance-mm") / 1000,
-                                .name = arguments.text("target")},  // what an error is about
+                                .name = subject},  // what an error is about
                                rig->left);
   if (patch) patch->name = arguments.text("name");
   return patch;

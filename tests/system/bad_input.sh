@@ -50,12 +50,12 @@ refuses 'build: an empty file' 'empty_file.png' "${build[@]}" --target empty_fil
 refuses 'build: no picture' 'text.png' "${build[@]}" --target text.png --mask mask.png "${out[@]}"
 refuses 'build: a photo of another size' 'small.png: is 80x60 pixels, but the left camera of the rig has 160x120' \
   "${build[@]}" --target small.png --mask mask.png "${out[@]}"
-refuses 'build: a mask of another size' 'mask is 80x60' "${build[@]}" --target target.png --mask small.png "${out[@]}"
+refuses 'build: a mask of another size' 'target.png with small.png: the mask is 80x60' "${build[@]}" --target target.png --mask small.png "${out[@]}"
 refuses 'build: a background of another size' 'small.png: is 80x60' "${build[@]}" --target target.png --background small.png "${out[@]}"
 refuses 'build: a background that equals the photo' 'background photo equals the target photo' \
   "${build[@]}" --target target.png --background target.png "${out[@]}"
-refuses 'build: an empty silhouette' 'silhouette is empty' "${build[@]}" --target target.png --mask black.png "${out[@]}"
-refuses 'build: a mask of everything' 'mask covers the whole photo' "${build[@]}" --target target.png --mask white.png "${out[@]}"
+refuses 'build: an empty silhouette' 'target.png with black.png: .*silhouette is empty' "${build[@]}" --target target.png --mask black.png "${out[@]}"
+refuses 'build: a mask of everything' 'target.png with white.png: the mask covers the whole photo' "${build[@]}" --target target.png --mask white.png "${out[@]}"
 refuses 'build: neither background nor mask' '--background or --mask is missing' "${build[@]}" --target target.png "${out[@]}"
 for distance in 0 -400 nan 1e9 zero; do
   refuses "build: distance $distance" '--distance-mm: ' \

@@ -52,6 +52,10 @@ TEST_F(ImageFile, a_mask_is_the_alpha_where_there_is_one_and_the_brightness_othe
   grey.samples = {0, 1};
   ASSERT_TRUE(write_png(path("grey.png"), grey));
   EXPECT_EQ(values("grey.png"), (std::vector{0, 1}));
+  Raster16 deep(4, 1, 1);
+  deep.samples = {0, 1, 128, 0xffff};
+  ASSERT_TRUE(write_png(path("deep.png"), deep));
+  EXPECT_EQ(values("deep.png"), (std::vector{0, 1, 1, 255}));
   hal::Image rough(2, 1, hal::PixelFormat::kYuv444);
   for (std::uint8_t& byte : rough.bytes()) byte = 128;
   rough.row(0, 0)[0] = 3;
