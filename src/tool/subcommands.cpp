@@ -37,6 +37,16 @@ Command top_command() {
   return command;
 }
 
+// `gannet model`, `gannet config`: the first word of some; without subcommands: of none.
+Command group_command(const std::string& word) {
+  Command group = {.name = "gannet " + word, .summary = "a group of subcommands"};
+  const std::string prefix = group.name + " ";
+  for (const Subcommand& sub : subcommands())
+    if (sub.command.name.rfind(prefix, 0) == 0)
+      group.subcommands.emplace_back(sub.command.name.substr(prefix.size()), sub.command.summary);
+  return group;
+}
+
 // How many of the first words make this subcommand's name; 0: they do not.
 std::size_t matched_words(const Subcommand& sub, std::span<const std::string> args) {
   std::string words = "gannet";
@@ -116,13 +126,18 @@ int run_gannet(std::span<const std::string> args) {
   }
   if (best != nullptr) return run_subcommand(*best, args.subspan(most));
   if (args.size() == 2 && args[0] == "--reference") return print_reference(args[1]);
+  Arguments arguments;
+  if (args.size() == 2 && (args[1] == "--help" || args[1] == "-h")) {
+    const Command group = group_command(args[0]);
+    if (!group.subcommands.empty())
+      return begin_command(group, args.subspan(1), arguments).value_or(2);
+  }
   if (args.empty() || args[0].rfind('-', 0) != 0) {
     const std::string problem =
         args.empty() ? "a subcommand is missing; `gannet --help` lists them" : usage_hint(args[0]);
     std::fprintf(stderr, "gannet: %s\n", problem.c_str());
     return 2;
   }
-  Arguments arguments;
   return begin_command(top_command(), args, arguments).value_or(2);
 }
 

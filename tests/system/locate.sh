@@ -55,4 +55,10 @@ check 'the map is written' test -s map.png
 check 'its best place is the target' awk -F, 'NR > 1 && (best == "" || $3 > best) { best = $3; x = $1; y = $2 }
   END { exit !(x > -0.011 && x < 0.011 && y > -0.011 && y < 0.011) }' map.csv
 
+for group in 'model build' 'config show'; do
+  "$gannet" ${group% *} --help >out.txt 2>&1
+  check "gannet ${group% *} --help ends well" test $? -eq 0
+  check "gannet ${group% *} --help lists ${group#* }" grep -q "${group#* }" out.txt
+done
+
 ending
