@@ -79,10 +79,9 @@ std::vector<Argument> search_options(const std::string& depths) {
        .kind = ArgumentKind::kInteger,
        .value = "N",
        .min = 0,
-       .max = kMostThreads,
        .preset = "0",
-       .help = "Threads that share the work, 0: one for each core; the answer does not depend on "
-               "it."},
+       .help = "Threads that share the work, 0: one for each core; more than 16 count as 16; the "
+               "answer does not depend on it."},
       {.name = "seed",
        .kind = ArgumentKind::kInteger,
        .value = "N",
@@ -156,7 +155,7 @@ Result<vision::PatchModel> read_model(const std::string& path, const track::Trac
 }
 
 Result<std::unique_ptr<Parallel>> make_workers(int threads) {
-  const int wanted = threads > 0 ? threads : std::min(linux_os::core_count(), kMostThreads);
+  const int wanted = std::min(threads > 0 ? threads : linux_os::core_count(), kMostThreads);
   if (wanted <= 1) return std::unique_ptr<Parallel>(std::make_unique<Serial>());
   auto pool = linux_os::WorkerPool::create(
       "worker", std::vector<linux_os::ThreadConfig>(static_cast<std::size_t>(wanted - 1)));

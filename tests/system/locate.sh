@@ -17,7 +17,7 @@ without_time() { sed 's/"time_ms":[^,]*,//'; }
 check 'it is found' test $? -eq 0
 without_time <out.txt >first.txt
 check 'where it was photographed' awk -F'[][,]' '{ exit !($3 > -0.006 && $3 < 0.006 && $4 > -0.006 && $4 < 0.006 && $5 > 0.36 && $5 < 0.44) }' out.txt
-for threads in 1 2 3 7; do
+for threads in 1 2 3 7 200; do
   for simd in scalar auto; do
     "${locate[@]}" --threads $threads --simd $simd | without_time >out.txt
     check "the same with $threads threads and $simd kernels" cmp -s first.txt out.txt
