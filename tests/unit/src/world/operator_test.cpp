@@ -91,7 +91,7 @@ TEST_F(OperatorTest, says_commands_as_the_protocol_has_them) {
   EXPECT_EQ(told("target crab"), R"(target {"model":"crab"})");
   EXPECT_EQ(told("target none"), R"(target {"none":true})");
   EXPECT_EQ(told("manual 100 0 -50"),
-            R"(manual {"angular_rad_s":[0.0,0.0,0.0],"linear_m_s":[0.1,0.0,-0.05]})");
+            R"(manual {"linear_m_s":[0.1,0.0,-0.05],"angular_rad_s":[0.0,0.0,0.0]})");
   EXPECT_EQ(told("goal 10 -20 500"), R"(goal {"mm":[10.0,-20.0,500.0]})");
   EXPECT_EQ(told("reset"), "reset {}");
   EXPECT_EQ(told("disarm"), "disarm {}");
