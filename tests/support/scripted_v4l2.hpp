@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <deque>
@@ -58,11 +59,11 @@ class ScriptedV4l2 final : public hal::V4l2System {
     std::function<bool(Frame&)> alter;
 
     bool plugged = true;
-    bool stream_fails = false;  // POLLERR and EIO until it is started anew
-    int queue_errors = 0;       // so many QBUF are refused
-    int start_error = 0;        // of STREAMON
-    bool loops_back = false;    // as v4l2loopback: writes round and round, whoever holds a buffer
-    int opened = 0;             // how often
+    bool stream_fails = false;    // POLLERR and EIO until it is started anew
+    int queue_errors = 0;         // so many QBUF are refused
+    int start_error = 0;          // of STREAMON
+    bool loops_back = false;      // as v4l2loopback: writes round and round, whoever holds a buffer
+    std::atomic<int> opened = 0;  // how often; by whichever thread
 
    private:
     friend class ScriptedV4l2;
