@@ -25,7 +25,8 @@ struct SearchVolume {
 };
 
 // When to stop. stop, if given, is asked between rounds and may say that a deadline or a newer
-// frame has come; replay leaves it null and is exact.
+// frame has come; replay leaves it null and is exact. A tracker asks it only while its target is in
+// view: a search from nothing goes to its end.
 struct Budget {
   double evaluations = 0;  // full stereo evaluations; 0: the configured default
   bool (*stop)(void* context) = nullptr;

@@ -74,6 +74,9 @@ class Tracker final : public TargetTracker {
         spend.evaluations = state_.state() == TrackState::kLocked ? config_.evaluations_tracking
                                                                   : config_.evaluations;
       }
+      // A search from nothing must end, or a computer that is slower than its cameras never finds
+      // anything: every newer pair would begin it anew.
+      if (!in_view()) spend.stop = nullptr;
       r = recognise(predicted ? &*predicted : nullptr, spend, parallel);
     }
     fill(out, r);
@@ -93,7 +96,7 @@ class Tracker final : public TargetTracker {
     PoseEstimate out = blank(now);
     if (seeking_ == Seeking::kNothing) return out;
     out.reason = TrackReason::kNoFrames;
-    if (state_.state() == TrackState::kLocked || state_.state() == TrackState::kCoasting) {
+    if (in_view()) {
       out.state = state_.step(false, now);
     }
     return out;
@@ -108,6 +111,10 @@ class Tracker final : public TargetTracker {
     const vision::PlaneNeeds a = for_models_->needs();
     const vision::PlaneNeeds b = for_rectangles_->needs();
     return {a.packed || b.packed, a.hue_value || b.hue_value};
+  }
+
+  bool in_view() const {
+    return state_.state() == TrackState::kLocked || state_.state() == TrackState::kCoasting;
   }
 
   void begin(Seeking seeking, int model, std::uint32_t id) {

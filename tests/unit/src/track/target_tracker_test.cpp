@@ -27,12 +27,13 @@ class Tracking : public testing::Test {
     now += milliseconds(33);
     const test::Picture left = scene.see(true, pose, 2 * number);
     const test::Picture right = scene.see(false, pose, 2 * number + 1);
-    return sut->process(left.view(), right.view(), now, number, {}, serial);
+    return sut->process(left.view(), right.view(), now, number, budget, serial);
   }
   test::FlatScene scene;
   TrackConfig config;
   std::unique_ptr<TargetTracker> sut;
   Serial serial;
+  Budget budget;
   TimePoint now = time_from_ns(1'000'000'000);
   std::uint64_t number = 0;
 };
@@ -62,6 +63,15 @@ TEST_F(Tracking, locks_follows_coasts_loses_and_finds_again) {
   for (int i = 0; i < 16; ++i) got = sut->no_frame(now += milliseconds(33));
   EXPECT_EQ(got.state, TrackState::kLost);
   EXPECT_EQ(got.reason, TrackReason::kNoFrames);
+  see(&pose);
+  EXPECT_EQ(see(&pose).state, TrackState::kLocked);
+}
+
+// A newer pair is always there when the computer is slower than the cameras.
+TEST_F(Tracking, finds_its_target_however_slow_the_computer) {
+  ASSERT_TRUE(sut->choose_model(0, 7));
+  budget.stop = [](void*) { return true; };
+  const auto pose = pose_at(0.05, 0, 0.6, 5, 5, 5);
   see(&pose);
   EXPECT_EQ(see(&pose).state, TrackState::kLocked);
 }
