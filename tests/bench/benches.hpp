@@ -9,6 +9,7 @@ namespace gannet::bench {
 struct Options {
   bool quick = false;
   int scenes = 60;  // of the acquisition
+  int trials = 40;  // of the accuracy, for each pose and noise
   int turns() const { return quick ? 3 : 41; }
   int width() const { return quick ? 320 : 640; }
   int height() const { return quick ? 240 : 480; }
@@ -20,6 +21,7 @@ void bench_fitness(const Options& options, Results& results);
 void bench_handover(const Options& options, Results& results);
 void bench_frame(const Options& options, Results& results);
 void bench_acquisition(const Options& options, Results& results);
+void bench_accuracy(const Options& options, Results& results);
 void bench_render(const Options& options, Results& results);
 void bench_jitter(const Options& options, Results& results);
 

@@ -9,10 +9,11 @@
 namespace {
 
 constexpr const char* kHelp =
-    "run [--quick] [--only GROUP] [--scenes N] [--json FILE] [--flags TEXT] [--commit TEXT]\n"
+    "run [--quick] [--only GROUP] [--scenes N] [--trials N] [--json FILE] [--flags TEXT] [--commit TEXT]\n"
     "  --quick   small pictures, few turns: does it run? The figures mean nothing.\n"
-    "  --only    kernels | fitness | handover | frame | acquisition | render | jitter\n"
+    "  --only    kernels | fitness | handover | frame | acquisition | accuracy | render | jitter\n"
     "  --scenes  of the acquisition, 60 unless told; each method sees all of them\n"
+    "  --trials  of the accuracy, 40 for each pose and noise unless told\n"
     "  --json    writes the results to this file, too\n"
     "  --flags, --commit   how this was built, kept with the results\n";
 
@@ -25,6 +26,7 @@ constexpr Group kGroups[] = {{"kernels", gannet::bench::bench_kernels},
                              {"handover", gannet::bench::bench_handover},
                              {"frame", gannet::bench::bench_frame},
                              {"acquisition", gannet::bench::bench_acquisition},
+                             {"accuracy", gannet::bench::bench_accuracy},
                              {"render", gannet::bench::bench_render},
                              {"jitter", gannet::bench::bench_jitter}};
 
@@ -44,6 +46,8 @@ int main(int argc, char** argv) {
       options.quick = true;
     } else if (word == "--scenes" && i + 1 < argc && std::atoi(argv[i + 1]) > 0) {
       options.scenes = std::atoi(argv[++i]);
+    } else if (word == "--trials" && i + 1 < argc && std::atoi(argv[i + 1]) > 1) {
+      options.trials = std::atoi(argv[++i]);
     } else if (text != nullptr && i + 1 < argc) {
       *text = argv[++i];
     } else {

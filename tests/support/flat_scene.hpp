@@ -84,31 +84,46 @@ struct FlatScene {
     return a * a + b * b <= 1;
   }
 
-  Picture see(bool left, const Transform<LeftCamera, Target>* pose, std::uint64_t seed) const {
+  // What an ideal camera measures: Y, U, V of each pixel, row by row.
+  std::vector<double> colours(bool left, const Transform<LeftCamera, Target>* pose) const {
     const Intrinsics& camera = left ? rig.left : rig.right;
-    const auto left_from_eye = rig.right_from_left.inverse();
-    Picture out = {camera.width, camera.height, {}, {}, {}};
-    Random random(seed);
+    std::vector<double> out(3 * static_cast<std::size_t>(camera.width * camera.height));
+    std::size_t at = 0;
     for (int row = 0; row < camera.height; ++row) {
-      for (int col = 0; col < camera.width; ++col) {
-        Eigen::Vector3d ray = camera.ray({col, row});
-        Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-        if (!left) {
-          ray = left_from_eye.rotation * ray;
-          origin = left_from_eye.translation;
-        }
-        double colour[3];
-        shade(origin, ray, pose, colour);
-        for (double& c : colour) c += noise * static_cast<double>(random.normal_f());
-        const auto byte = [](double c) {
-          return static_cast<std::uint8_t>(std::clamp(std::lround(c), 0L, 255L));
-        };
-        out.y.push_back(byte(colour[0]));
-        out.u.push_back(byte(colour[1]));
-        out.v.push_back(byte(colour[2]));
+      for (int col = 0; col < camera.width; ++col, at += 3) {
+        const auto [origin, ray] = line_of_sight(left, col, row);
+        shade(origin, ray, pose, &out[at]);
       }
     }
     return out;
+  }
+
+  // Whether a pixel's centre sees the target.
+  bool on_target(bool left, const Transform<LeftCamera, Target>& pose, int col, int row) const {
+    const auto [origin, ray] = line_of_sight(left, col, row);
+    double x, y;
+    return hits(origin, ray, pose, x, y);
+  }
+
+  // With this scene's noise, rounded to bytes.
+  Picture noisy(bool left, const std::vector<double>& colours, std::uint64_t seed) const {
+    const Intrinsics& camera = left ? rig.left : rig.right;
+    Picture out = {camera.width, camera.height, {}, {}, {}};
+    Random random(seed);
+    const auto byte = [&](double c) {
+      c += noise * static_cast<double>(random.normal_f());
+      return static_cast<std::uint8_t>(std::clamp(std::lround(c), 0L, 255L));
+    };
+    for (std::size_t at = 0; at < colours.size(); at += 3) {
+      out.y.push_back(byte(colours[at]));
+      out.u.push_back(byte(colours[at + 1]));
+      out.v.push_back(byte(colours[at + 2]));
+    }
+    return out;
+  }
+
+  Picture see(bool left, const Transform<LeftCamera, Target>* pose, std::uint64_t seed) const {
+    return noisy(left, colours(left, pose), seed);
   }
 
   // The photo-model as a user would make it: a photo at 0.4 m and one of the background.
@@ -129,19 +144,33 @@ struct FlatScene {
   }
 
  private:
+  struct Line {
+    Eigen::Vector3d origin, ray;  // in Σ_CL
+  };
+  Line line_of_sight(bool left, int col, int row) const {
+    if (left) return {Eigen::Vector3d::Zero(), rig.left.ray({col, row})};
+    const auto left_from_eye = rig.right_from_left.inverse();
+    return {left_from_eye.translation, left_from_eye.rotation * rig.right.ray({col, row})};
+  }
+
+  bool hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray,
+            const Transform<LeftCamera, Target>& pose, double& x, double& y) const {
+    const auto target_from_left = pose.inverse();
+    const Eigen::Vector3d o = target_from_left(origin);
+    const Eigen::Vector3d d = target_from_left.rotation * ray;
+    const Eigen::Vector3d hit = o - d * (o.z() / d.z());
+    x = hit.x(), y = hit.y();
+    return o.z() / d.z() < 0 && covers(x, y);
+  }
+
   void shade(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray,
              const Transform<LeftCamera, Target>* pose, double* colour) const {
-    if (pose != nullptr) {
-      const auto target_from_left = pose->inverse();
-      const Eigen::Vector3d o = target_from_left(origin);
-      const Eigen::Vector3d d = target_from_left.rotation * ray;
-      const Eigen::Vector3d hit = o - d * (o.z() / d.z());
-      if (o.z() / d.z() < 0 && covers(hit.x(), hit.y())) {
-        colour[0] = 120 + target.at(0, hit.x(), hit.y());
-        colour[1] = 100 + 0.6 * target.at(1, hit.x(), hit.y());
-        colour[2] = 175 + 0.6 * target.at(2, hit.x(), hit.y());
-        return;
-      }
+    double x, y;
+    if (pose != nullptr && hits(origin, ray, *pose, x, y)) {
+      colour[0] = 120 + target.at(0, x, y);
+      colour[1] = 100 + 0.6 * target.at(1, x, y);
+      colour[2] = 175 + 0.6 * target.at(2, x, y);
+      return;
     }
     const Eigen::Vector3d hit = origin + ray * ((ground_z - origin.z()) / ray.z());
     colour[0] = 90 + ground.at(0, hit.x(), hit.y());
