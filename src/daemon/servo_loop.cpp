@@ -241,6 +241,7 @@ void ServoLoop::steer(TimePoint now) {
     wish = {};
     wish.velocity = hand_;
   }
+  if (links_.drives != nullptr) links_.vehicle->sense(links_.drives->feedback(), now);
   const vehicle::Reach reach = links_.vehicle->update(wish, permit, dt, setpoints_);
   report_.reach_scale = reach.scale;
   note_own_motion(now);

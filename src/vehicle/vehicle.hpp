@@ -29,13 +29,18 @@ class Vehicle {
 
   virtual int motors() const = 0;  // 0: there is none, and nothing can be armed
 
+  // What the drives say, a value for each motor in its order; once a cycle, before update. For
+  // vehicles whose own motion is told by their drives.
+  virtual void sense(std::span<const hal::DriveFeedback>, TimePoint) {}
+
   // One cycle: writes motors() setpoints. Permit none: all zero. Hold only: the wished velocity
   // counts as zero. setpoints shorter than motors(): nothing is written, permit none is assumed.
   virtual Reach update(const MotionWish& wish, Permit permit, Duration dt,
                        std::span<hal::DriveSetpoint> setpoints) = 0;
 
-  // Own velocity against the water as the setpoints written so far make it by the vehicle's model;
-  // zero on axes without control. For prediction over the images' latency.
+  // Own velocity against water or floor, as the setpoints written so far make it by the vehicle's
+  // model or as its drives tell; zero on axes without control. For prediction over the images'
+  // latency.
   virtual Twist<Body> own_velocity() const = 0;
 
   // Forgets integrals and the model's velocity.
