@@ -86,8 +86,20 @@ bool Cia402Axis::hear_pdo(const CanFrame& frame, TimePoint time) {
     const auto per_mille = static_cast<std::int16_t>(canopen::get(data.subspan(6, 2)));
     feedback_.current_a = per_mille * rated_current_a_ / 1000;
   }
+  // Both come with each SYNC; one that stays away must not leave an old position for a new one.
+  if (++since_position_ > 2) feedback_.position_rad = kNan;
   if (state_ == State::kFault && before != State::kFault) asks_for_code_ = emergency_.code == 0;
   if (state_ != State::kFault && state_ != State::kFaultReaction) asks_for_code_ = false;
+  return true;
+}
+
+bool Cia402Axis::hear_position(const CanFrame& frame) {
+  if (phase_ != AxisPhase::kRunning) return true;
+  if (frame.length < kPositionBytes) return false;
+  const std::span<const std::uint8_t> data = frame.data;
+  feedback_.position_rad = static_cast<std::int32_t>(canopen::get(data.first(kPositionBytes))) /
+                           settings_.increments_per_rad;
+  since_position_ = 0;
   return true;
 }
 
@@ -98,6 +110,7 @@ void Cia402Axis::enter(AxisPhase phase, TimePoint now) {
   phase_since_ = now;
   if (phase == AxisPhase::kRunning) return;
   has_status_ = false;
+  feedback_.position_rad = kNan;
   state_ = State::kUnknown;
   asks_for_code_ = false;
 }

@@ -46,8 +46,9 @@ struct Refusal {
 struct AxisSettings {
   int node = 1;
   int own_node = 10;
-  double units_per_rad_s = 1;  // with the sign: negative for a reversed motor
-  double full_units = 0;       // target at setpoint 1
+  double units_per_rad_s = 1;     // with the sign: negative for a reversed motor
+  double full_units = 0;          // target at setpoint 1
+  double increments_per_rad = 1;  // with the sign too
   Duration feedback_timeout = {};
 };
 
@@ -62,6 +63,7 @@ class Cia402Axis {
   bool hear_emergency(const CanFrame& frame, TimePoint time);
   bool hear_answer(const CanFrame& frame, TimePoint time);
   bool hear_pdo(const CanFrame& frame, TimePoint time);
+  bool hear_position(const CanFrame& frame);
 
   // Once a cycle: the setpoint's frame, if the drive listens. No setpoint: halt.
   std::optional<CanFrame> command(std::optional<double> setpoint, bool enable, TimePoint now);
@@ -117,6 +119,7 @@ class Cia402Axis {
 
   TimePoint heard_ = {}, heartbeat_ = {};
   bool was_heard_ = false, has_status_ = false;
+  int since_position_ = 0;  // status PDOs since the newest position
   State state_ = State::kUnknown;
   canopen::Emergency emergency_;
   bool asks_for_code_ = false;

@@ -22,8 +22,8 @@ void describe(Visitor& v, Cia402Config& c) {
   v.field("increments_per_rev", c.increments_per_rev,
           {.min = 1,
            .max = 1e9,
-           .help = "For increments_per_s: encoder increments, all edges counted, of one turn of "
-                   "the motor."});
+           .help = "For increments_per_s and report_position: encoder increments, all edges "
+                   "counted, of one turn of the motor."});
   v.field("gear_ratio", c.gear_ratio,
           {.min = 0.001, .max = 1000, .help = "Turns of the motor for one of the driven shaft."});
   v.field("acceleration_rad_s2", c.acceleration_rad_s2,
@@ -40,6 +40,9 @@ void describe(Visitor& v, Cia402Config& c) {
                    "0: as stored in the drive."});
   v.field("report_current", c.report_current,
           {.help = "Maps the motor's current (6078) too; false for a drive that has none."});
+  v.field("report_position", c.report_position,
+          {.help = "Maps the position (6064, in encoder increments) to the next transmit PDO after "
+                   "pdo; an arm needs it."});
   v.field(
       "stop", c.stop,
       {.choices = {"quick_stop", "disable_voltage"},
@@ -89,6 +92,10 @@ double velocity_units_per_rad_s(const Cia402Config& config) {
   if (config.velocity_unit == "milli_rpm") per_rev_s = 60000;
   if (config.velocity_unit == "increments_per_s") per_rev_s = config.increments_per_rev;
   return per_rev_s / (2 * std::numbers::pi) * config.gear_ratio;
+}
+
+double position_units_per_rad(const Cia402Config& config) {
+  return config.increments_per_rev / (2 * std::numbers::pi) * config.gear_ratio;
 }
 
 }  // namespace gannet::hal

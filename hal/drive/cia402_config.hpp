@@ -16,6 +16,7 @@ struct Cia402Config {
   double acceleration_rad_s2 = 0;
   double quick_stop_rad_s2 = 0;
   bool report_current = true;
+  bool report_position = false;
   std::string stop = "quick_stop";
   double stop_time_s = 1;
   double heartbeat_period_s = 0.05;
@@ -33,5 +34,11 @@ void describe(Visitor& v, Cia402Config& c);
 
 // The drive's velocity units for one rad/s of the driven shaft. 0: an unknown unit.
 double velocity_units_per_rad_s(const Cia402Config& config);
+
+// Encoder increments for one rad of the driven shaft.
+double position_units_per_rad(const Cia402Config& config);
+
+// The transmit PDO, 1 to 4, that brings the position: the one after pdo.
+inline int position_pdo(const Cia402Config& config) { return config.pdo % 4 + 1; }
 
 }  // namespace gannet::hal

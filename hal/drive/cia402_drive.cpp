@@ -86,13 +86,15 @@ Cia402Drive::Cia402Drive(const DriveConfig& config)
   axis_of_.fill(-1);
   axes_.reserve(config.motors.size());
   for (const MotorConfig& motor : config.motors) {
-    const double units = velocity_units_per_rad_s(config_) * (motor.reversed ? -1 : 1);
+    const double sign = motor.reversed ? -1 : 1;
+    const double units = velocity_units_per_rad_s(config_) * sign;
     axis_of_[static_cast<std::size_t>(motor.node_id)] = static_cast<std::int8_t>(axes_.size());
     axes_.emplace_back(
         cia402::AxisSettings{.node = motor.node_id,
                              .own_node = own_id_,
                              .units_per_rad_s = units,
                              .full_units = units * motor.full_speed_rad_s * motor.max_command,
+                             .increments_per_rad = position_units_per_rad(config_) * sign,
                              .feedback_timeout = from_seconds(config.feedback_timeout_s)},
         config_);
   }
@@ -108,6 +110,8 @@ std::vector<CanFilter> Cia402Drive::wanted_frames(const DriveConfig& config) {
          {kEmcyBase, canopen::tpdo_base(config.cia402.pdo), kSdoAnswerBase, kHeartbeatBase}) {
       add(base, motor.node_id);
     }
+    if (config.cia402.report_position)
+      add(canopen::tpdo_base(position_pdo(config.cia402)), motor.node_id);
   }
   add(kHeartbeatBase, config.own_node_id);
   return filters;
@@ -136,6 +140,8 @@ bool Cia402Drive::hear(Cia402Axis& axis, std::uint32_t base, const CanFrame& fra
   if (base == kEmcyBase) return axis.hear_emergency(frame, time);
   if (base == kSdoAnswerBase) return axis.hear_answer(frame, time);
   if (base == canopen::tpdo_base(config_.pdo)) return axis.hear_pdo(frame, time);
+  if (config_.report_position && base == canopen::tpdo_base(position_pdo(config_)))
+    return axis.hear_position(frame);
   return true;
 }
 

@@ -88,6 +88,7 @@ void add_profile(Objects& o) {
   o.push_back(ranged({{0x605E, 0}, "Fault reaction option code", kI16, kRw, 2}, 0, 2));
   o.push_back({{0x6060, 0}, "Modes of operation", kI8, kRw, 0, no, yes, yes});
   o.push_back({{0x6061, 0}, "Modes of operation display", kI8, kRo, 0, no, no, yes});
+  o.push_back({{0x6064, 0}, "Position actual value", kI32, kRo, 0, no, no, yes});
   o.push_back({{0x606C, 0}, "Velocity actual value", kI32, kRo, 0, no, no, yes});
   o.push_back({{0x6075, 0}, "Motor rated current", kU32, kRw, 10000});
   o.push_back({{0x6078, 0}, "Current actual value", kI16, kRo, 0, no, no, yes});

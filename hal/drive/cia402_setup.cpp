@@ -72,9 +72,18 @@ void add_pdos(Steps& steps, const Cia402Config& config, int node) {
               .mapped = {mapping(0x6041, 16), mapping(0x606C, 32)}};
   if (config.report_current) tpdo.mapped.push_back(mapping(0x6078, 16));
   add_pdo(steps, tpdo);
+  const auto position = static_cast<std::uint16_t>(position_pdo(config) - 1);
+  if (config.report_position) {
+    add_pdo(steps, {.communication = at(0x1800, position),
+                    .map = at(0x1A00, position),
+                    .cob_id = kNoRtr | (canopen::tpdo_base(position_pdo(config)) + id),
+                    .type = kEverySync,
+                    .mapped = {mapping(0x6064, 32)}});
+  }
   // What else the drive would say by itself is bus load without a reader.
   for (int pdo = 1; pdo <= 4; ++pdo) {
     if (pdo == config.pdo) continue;
+    if (config.report_position && pdo == position_pdo(config)) continue;
     steps.push_back({Kind::kOffer,
                      {at(0x1800, pdo - 1), 1},
                      4,

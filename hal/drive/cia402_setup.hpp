@@ -43,6 +43,7 @@ std::vector<SetupStep> setup_steps(const Cia402Config& config, int node, int own
 
 // The length of the drive's transmit PDO and of ours, by the config.
 constexpr int kRpdoBytes = 6;
+constexpr int kPositionBytes = 4;
 inline int tpdo_bytes(const Cia402Config& config) { return config.report_current ? 8 : 6; }
 
 }  // namespace gannet::hal::cia402

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "platform/base/time.hpp"
 
@@ -20,6 +21,8 @@ struct DriveFeedback {
   DriveState state = DriveState::kUnknown;
   TimePoint time = {};     // of the last feedback; the epoch when there was none
   double speed_rad_s = 0;  // of the shaft, by the vehicle's sign
+  // Of the same shaft, over all its turns; NaN where the drive does not tell it.
+  double position_rad = std::numeric_limits<double>::quiet_NaN();
   double current_a = 0;
   double voltage_v = 0;
   double temperature_k = 0;

@@ -377,12 +377,13 @@ void Cia402Node::say_pdo(int pdo) {
   said_.push_back(frame);
 }
 
-void Cia402Node::measure(double velocity, double current_ma, double voltage_mv) {
+void Cia402Node::measure(double velocity, double current_ma, double voltage_mv, double position) {
   velocity_ = velocity;
   const double rated = std::max(1u, get(0x6075));
   const auto whole = [](double value, double most) {
     return static_cast<std::int32_t>(std::lround(std::clamp(value, -most, most)));
   };
+  set(0x6064, 0, static_cast<std::uint32_t>(whole(position, 2147483647)));
   set(0x606C, 0, static_cast<std::uint32_t>(whole(velocity, 2147483647)));
   set(0x6078, 0, static_cast<std::uint32_t>(whole(1000 * current_ma / rated, 32767)));
   set(0x6079, 0, static_cast<std::uint32_t>(whole(voltage_mv, 2147483647)));

@@ -43,8 +43,8 @@ class Cia402Node {
   // Frames said since the last call.
   std::vector<hal::CanFrame> take_said() { return std::exchange(said_, {}); }
 
-  // What the plant makes of it, in the drive's own units: 606C, and mA, mV.
-  void measure(double velocity, double current_ma, double voltage_mv);
+  // What the plant makes of it, in the drive's own units: 606C, and mA, mV; 6064.
+  void measure(double velocity, double current_ma, double voltage_mv, double position = 0);
   // A fault that lasts until it is 0 again: a fault reset succeeds only then.
   void set_fault(std::uint16_t code) { fault_ = code; }
 

@@ -15,11 +15,13 @@ constexpr std::uint16_t kFaultCode = 0x4310;  // of a drive that is made faulty:
 Cia402Nodes::Cia402Nodes(const hal::DriveConfig& drives, std::uint64_t seed)
     : throttles_(drives.motors.size()), random_(seed) {
   const double units = hal::velocity_units_per_rad_s(drives.cia402);
+  const double increments = hal::position_units_per_rad(drives.cia402);
   for (const hal::MotorConfig& motor : drives.motors) {
     const auto base = static_cast<std::uint32_t>(0x100 + 0x100 * drives.cia402.pdo);
     drives_.push_back({.node = Cia402Node(motor.node_id),
                        .command_id = base + static_cast<std::uint32_t>(motor.node_id),
                        .units_per_rad_s = motor.reversed ? -units : units,
+                       .increments_per_rad = motor.reversed ? -increments : increments,
                        .faults = {},
                        .mouth = {}});
   }
@@ -28,7 +30,7 @@ Cia402Nodes::Cia402Nodes(const hal::DriveConfig& drives, std::uint64_t seed)
 void Cia402Nodes::report(int motor, const MotorReport& report) {
   Drive& drive = at(motor);
   drive.node.measure(report.speed_rad_s * drive.units_per_rad_s, report.current_a * 1000,
-                     report.voltage_v * 1000);
+                     report.voltage_v * 1000, report.position_rad * drive.increments_per_rad);
 }
 
 // Whoever hears: also what a silent drive does not.

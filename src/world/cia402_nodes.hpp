@@ -29,6 +29,7 @@ class Cia402Nodes final : public MotorNodes {
     Cia402Node node;
     std::uint32_t command_id;  // of the frames that bring its control word
     double units_per_rad_s;    // with the sign
+    double increments_per_rad;
     MotorFaults faults;
     NodeMouth mouth;
   };

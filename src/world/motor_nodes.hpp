@@ -24,6 +24,7 @@ struct MotorReport {
   double current_a = 0;
   double voltage_v = 0;
   double temperature_k = 293;
+  double position_rad = 0;  // over all turns
 };
 
 struct MotorFaults {

@@ -73,7 +73,7 @@ class Loop {
     }
     for (std::size_t k = 0; k < nodes_.size(); ++k) {
       Cia402Node& node = nodes_[k];
-      node.measure(node.demand(), 2500, 24000);
+      node.measure(node.demand(), 2500, 24000, increments);
       node.step(now_);
       for (const hal::CanFrame& frame : node.take_said()) {
         log_ += "  " + hal::to_text(frame) + "\n";
@@ -124,6 +124,7 @@ class Loop {
 
   bool enable = false, is_master_alive = true;
   double loss = 0;
+  double increments = 0;  // 6064 of every drive
   Duration late = {};
 
  private:
@@ -533,6 +534,43 @@ TEST(Cia402Loop, UsesThePdoThatTheConfigSays) {
   EXPECT_TRUE(std::isnan(sut.drive().feedback()[0].current_a));
   EXPECT_NE(sut.log().find("\n415#0F00"), std::string::npos);
   EXPECT_NE(sut.log().find("  395#3706"), std::string::npos);
+}
+
+TEST(Cia402Loop, BringsThePositionWhereTheConfigWantsIt) {
+  for (const bool reversed : {false, true}) {
+    DriveConfig config = config_of(2);
+    config.cia402.report_position = true;
+    config.cia402.increments_per_rev = 8192;
+    config.cia402.gear_ratio = 50;
+    config.motors[0].reversed = config.motors[1].reversed = reversed;
+    Loop sut(config);
+    EXPECT_TRUE(std::isnan(sut.drive().feedback()[0].position_rad));
+    sut.increments = -3 * 8192 * 50;  // three turns of the shaft
+    sut.arm(0.1);
+    sut.run(0.1);
+    const double turns = reversed ? 3 : -3;
+    EXPECT_NEAR(sut.drive().feedback()[0].position_rad, turns * 2 * std::numbers::pi, 1e-9);
+    EXPECT_NE(sut.drive().feedback()[0].speed_rad_s, 0);
+    // A position that stays away is not kept for a new one; status and speed go on.
+    sut.node(1).lack(0x1801);
+    sut.run(0.05);
+    EXPECT_TRUE(std::isnan(sut.drive().feedback()[1].position_rad));
+    EXPECT_FALSE(std::isnan(sut.drive().feedback()[0].position_rad));
+    EXPECT_TRUE(sut.health().all_alive);
+  }
+}
+
+TEST(Cia402Loop, SetsUpADriveWithoutPositionOnlyWhereNoneIsWanted) {
+  DriveConfig config = config_of(1);
+  Loop without(config);
+  without.node().lack(0x6064);
+  EXPECT_GE(without.until([&] { return without.health().all_ready; }), 0);
+  EXPECT_TRUE(std::isnan(without.drive().feedback()[0].position_rad));
+  config.cia402.report_position = true;
+  Loop with(config);
+  with.node().lack(0x6064);
+  with.run(2);
+  EXPECT_FALSE(with.health().all_ready);
 }
 
 TEST(Cia402Loop, AModeThatTheDriveRefusesSaysItsAbortCode) {
