@@ -51,21 +51,22 @@ bool act_on_cameras(const Action& action, TimePoint now, Cameras& cameras) {
 }
 
 // False: no action of drives.
-bool act_on_drive(const Action& action, MotorFaults& node, Thruster& thruster) {
+bool act_on_drive(const Action& action, int drive, Parts& parts) {
+  MotorFaults& node = parts.motors->faults(drive);
   switch (action.verb) {
     case Verb::kSilenceDrive:
       return node.silent = true;
     case Verb::kFaultDrive:
       return node.faulty = true;
     case Verb::kJamDrive:
-      return thruster.jam(true), true;
+      return parts.plant.jam(drive, true), true;
     case Verb::kLateDrive:
       return node.late = from_seconds(action.numbers[1] / 1000), true;
     case Verb::kGarbageDrive:
       return node.garbage = action.numbers[1], true;
     case Verb::kMendDrive:
       node = {};
-      return thruster.jam(false), true;
+      return parts.plant.jam(drive, false), true;
     default:
       return false;
   }
@@ -129,8 +130,7 @@ Result<void> act(const Action& action, TimePoint now, Parts& parts) {
   if (is_of_drives(action.verb)) {
     const int drive = static_cast<int>(std::max(0.0, action.numbers[0] - 1));
     if (parts.motors != nullptr && drive < parts.motors->count())
-      act_on_drive(action, parts.motors->faults(drive),
-                   parts.plant.thrusters()[static_cast<std::size_t>(drive)]);
+      act_on_drive(action, drive, parts);
     return {};
   }
   act_on_water(action, now, parts);

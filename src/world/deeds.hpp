@@ -8,7 +8,7 @@
 #include "src/world/cameras.hpp"
 #include "src/world/line_end.hpp"
 #include "src/world/motors.hpp"
-#include "src/world/rov_plant.hpp"
+#include "src/world/plant.hpp"
 #include "src/world/scenario.hpp"
 #include "src/world/stage.hpp"
 
@@ -25,7 +25,7 @@ struct Intent {
 struct Parts {
   const Scenario& scenario;
   Stage& stage;
-  RovPlant& plant;
+  Plant& plant;
   Cameras& cameras;
   Motors* motors;  // null: no vehicle
   LineEnd& lines;

@@ -28,7 +28,7 @@ Motors::Motors(std::unique_ptr<CanEnd> bus, std::unique_ptr<MotorNodes> nodes, D
       delay_(delay),
       throttles_(static_cast<std::size_t>(nodes_->motors()), 0.0) {}
 
-void Motors::step(TimePoint now, RovPlant& plant) {
+void Motors::step(TimePoint now, Plant& plant) {
   receive(now);
   report(plant);
   said_.clear();
@@ -74,14 +74,15 @@ void Motors::receive(TimePoint now) {
   }
 }
 
-void Motors::report(const RovPlant& plant) {
+void Motors::report(const Plant& plant) {
   double current = 0;
-  for (const Thruster& thruster : plant.thrusters()) current += thruster.current_a();
+  for (int i = 0; i < plant.motors(); ++i) current += plant.motor(i).current_a;
   for (int i = 0; i < nodes_->motors(); ++i) {
-    const Thruster& thruster = plant.thrusters()[static_cast<std::size_t>(i)];
-    nodes_->report(i, {.speed_rad_s = thruster.speed_rad_s(),
-                       .current_a = thruster.current_a(),
-                       .voltage_v = kBattery_v - kBatteryResistance_ohm * current});
+    const MotorState motor = plant.motor(i);
+    nodes_->report(i, {.speed_rad_s = motor.speed_rad_s,
+                       .current_a = motor.current_a,
+                       .voltage_v = kBattery_v - kBatteryResistance_ohm * current,
+                       .position_rad = motor.position_rad});
   }
 }
 

@@ -12,7 +12,7 @@
 #include "hal/drive/drive_config.hpp"
 #include "src/world/can_end.hpp"
 #include "src/world/motor_nodes.hpp"
-#include "src/world/rov_plant.hpp"
+#include "src/world/plant.hpp"
 
 namespace gannet::world {
 
@@ -34,7 +34,7 @@ class Motors {
 
   // Takes what came by now, lets the nodes obey what is due, puts their throttles on the plant and
   // their answers on the bus.
-  void step(TimePoint now, RovPlant& plant);
+  void step(TimePoint now, Plant& plant);
 
   // Throttles −1 … 1 as the nodes obey them, by the vehicle's sign.
   std::span<const double> throttles() const { return throttles_; }
@@ -52,7 +52,7 @@ class Motors {
   Motors(std::unique_ptr<CanEnd> bus, std::unique_ptr<MotorNodes> nodes, Duration delay);
   void receive(TimePoint now);
   void obey(TimePoint due, TimePoint told);
-  void report(const RovPlant& plant);
+  void report(const Plant& plant);
 
   std::unique_ptr<CanEnd> bus_;
   std::unique_ptr<MotorNodes> nodes_;

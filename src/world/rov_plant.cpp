@@ -78,6 +78,17 @@ void RovPlant::command(std::span<const double> throttles) {
     thrusters_[i].command(i < throttles.size() ? throttles[i] : 0);
 }
 
+MotorState RovPlant::motor(int index) const {
+  const Thruster& thruster = thrusters_[static_cast<std::size_t>(index)];
+  return {.speed_rad_s = thruster.speed_rad_s(),
+          .position_rad = thruster.position_rad(),
+          .current_a = thruster.current_a()};
+}
+
+void RovPlant::jam(int index, bool jammed) {
+  thrusters_[static_cast<std::size_t>(index)].jam(jammed);
+}
+
 void RovPlant::advance(double seconds) {
   const long steps = std::lround(seconds / kStep_s);
   for (long i = 0; i < steps; ++i) step(kStep_s);

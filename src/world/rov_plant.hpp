@@ -19,6 +19,7 @@
 #include "src/core/motion.hpp"
 #include "src/core/pose_estimate.hpp"
 #include "src/core/transform.hpp"
+#include "src/world/plant.hpp"
 #include "src/world/thruster.hpp"
 
 namespace gannet::world {
@@ -46,21 +47,22 @@ void describe(Visitor& v, RovPlantConfig& c);
 
 std::vector<ThrusterPlace> vectored_6dof_thrusters();
 
-class RovPlant {
+class RovPlant final : public Plant {
  public:
   explicit RovPlant(const RovPlantConfig& config);
 
-  // Throttles −1 … 1, one a thruster, for the time from now on; missing ones are 0.
-  void command(std::span<const double> throttles);
-  void advance(double seconds);  // in steps of 1 ms, rounded to the nearest number of them
+  int motors() const override { return static_cast<int>(thrusters_.size()); }
+  void command(std::span<const double> throttles) override;
+  void advance(double seconds) override;  // in steps of 1 ms, rounded to the nearest number of them
+  MotorState motor(int index) const override;
+  void jam(int index, bool jammed) override;
 
-  void set_pose(const Transform<World, Body>& pose) { state_.pose = pose; }
+  void set_pose(const Transform<World, Body>& pose) override { state_.pose = pose; }
   void set_velocity(const Vector6d& velocity) { state_.velocity = velocity; }
-  void set_current(const Eigen::Vector3d& world_m_s) { current_ = world_m_s; }
+  void set_current(const Eigen::Vector3d& world_m_s) override { current_ = world_m_s; }
 
-  const Transform<World, Body>& pose() const { return state_.pose; }
-  Twist<Body> velocity() const;
-  std::vector<Thruster>& thrusters() { return thrusters_; }
+  const Transform<World, Body>& pose() const override { return state_.pose; }
+  Twist<Body> velocity() const override;
   const std::vector<Thruster>& thrusters() const { return thrusters_; }
 
   const Matrix6d& rigid_mass() const { return rigid_mass_; }

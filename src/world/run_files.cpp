@@ -113,7 +113,7 @@ config::DaemonConfig daemon_config(const Scenario& scenario, const RunFiles& fil
       c.vehicle.rov.curve.dead_band = 0;
       c.vehicle.rov.curve.exponent = 2;
     }
-    const std::size_t thrusters = RovPlant(scenario.vehicle.plant).thrusters().size();
+    const std::size_t thrusters = static_cast<std::size_t>(make_plant(scenario.vehicle)->motors());
     for (int i = 0; i < static_cast<int>(thrusters); ++i)
       c.drive.motors.push_back(
           {.index = i, .node_id = 20 + i, .full_speed_rad_s = kFullSpeed_rad_s});

@@ -47,11 +47,11 @@ Simulation::Simulation(const Scenario& scenario, const SimulationOptions& option
       files_(std::move(files)),
       rig_(scenario.rig()),
       period_(from_seconds(1 / scenario.daemon.servo_hz)),
-      plant_(scenario.vehicle.plant) {
-  plant_.set_pose(scenario.start_pose());
+      plant_(make_plant(scenario.vehicle)) {
+  plant_->set_pose(scenario.start_pose());
   const std::vector<double>& current = scenario.vehicle.current_mm_s;
-  plant_.set_current(scenario.world_from_reference().rotation *
-                     Eigen::Vector3d(current[0], current[1], current[2]) / 1000);
+  plant_->set_current(scenario.world_from_reference().rotation *
+                      Eigen::Vector3d(current[0], current[1], current[2]) / 1000);
   trace_.period_s = to_seconds(period_);
 }
 
@@ -93,7 +93,7 @@ Result<void> Simulation::periods(const Tick& tick) {
     if (!options_.stepped) {
       const auto wake = clock.wait();
       k += static_cast<long>(wake.missed);
-      for (std::int64_t i = 0; i < wake.missed; ++i) plant_.advance(to_seconds(period_));
+      for (std::int64_t i = 0; i < wake.missed; ++i) plant_->advance(to_seconds(period_));
       now = wake.due;
     }
     const auto done = period(now);
@@ -112,12 +112,12 @@ Result<void> Simulation::period(TimePoint now) {
     const auto done = steps_->step(now, options_.patience);
     if (!done) return done;
   }
-  if (motors_) motors_->step(moment(now), plant_);
+  if (motors_) motors_->step(moment(now), *plant_);
   const auto heard = listen();
   if (!heard) return heard;
   note_turns();
   trace_.rows.push_back(row_at(now));
-  if (motors_) plant_.advance(to_seconds(period_));
+  if (motors_) plant_->advance(to_seconds(period_));
   return {};
 }
 
@@ -125,7 +125,7 @@ void Simulation::happen(const Event& event, TimePoint now) {
   const TimePoint at = moment(now);
   trace_.marks.push_back({seconds_at(at), event.action.text});
   if (event.action.is_operator_command()) operator_->command(trace_.marks.size() - 1, event.action);
-  Parts parts = {scenario_, *stage_, plant_, *cameras_, motors_.get(), *lines_, intent_};
+  Parts parts = {scenario_, *stage_, *plant_, *cameras_, motors_.get(), *lines_, intent_};
   const auto done = act(event.action, at, parts);
   if (done) return;
   notes_.push_back("'" + event.action.text + "': " + done.error().text);
@@ -133,7 +133,7 @@ void Simulation::happen(const Event& event, TimePoint now) {
 }
 
 Transform<World, Hand> Simulation::world_from_hand() const {
-  return plant_.pose() * *rig_.body_from_hand;
+  return plant_->pose() * *rig_.body_from_hand;
 }
 
 Transform<LeftCamera, Target> Simulation::left_from_target(double time_s) const {
@@ -174,7 +174,7 @@ void Simulation::note_turns() {
 TraceRow Simulation::row_at(TimePoint now) const {
   TraceRow row;
   row.time_s = seconds_at(now);
-  row.vehicle = plant_.pose();
+  row.vehicle = plant_->pose();
   row.target = world_from_hand().inverse() * stage_->pose(intent_.target, row.time_s);
   row.in_view = stage_->in_view(intent_.target, row.time_s, rig_, world_from_hand());
   row.error_m = row.target.translation - intent_.goal_m;

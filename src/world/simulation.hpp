@@ -20,6 +20,7 @@
 #include "src/world/line_end.hpp"
 #include "src/world/motors.hpp"
 #include "src/world/operator_link.hpp"
+#include "src/world/plant.hpp"
 #include "src/world/run_files.hpp"
 #include "src/world/scenario.hpp"
 #include "src/world/stage.hpp"
@@ -99,7 +100,7 @@ class Simulation {
   RunFiles files_;
   const StereoRig rig_;
   const Duration period_;
-  RovPlant plant_;
+  const std::unique_ptr<Plant> plant_;
 
   std::unique_ptr<Parallel> parallel_;
   std::unique_ptr<Stage> stage_;

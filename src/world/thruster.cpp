@@ -89,6 +89,7 @@ void Thruster::advance(double dt_s) {
   // Exact for a command that stays, so that the step's length does not change the lag.
   speed_rad_s_ += (wanted - speed_rad_s_) * (1 - std::exp(-dt_s / kThrusterLag_s));
   if (jammed_) speed_rad_s_ = 0;
+  position_rad_ += speed_rad_s_ * dt_s;
 }
 
 double Thruster::current_a() const {

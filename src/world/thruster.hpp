@@ -25,12 +25,14 @@ class Thruster {
 
   double throttle() const { return throttle_; }
   double speed_rad_s() const { return speed_rad_s_; }
+  double position_rad() const { return position_rad_; }  // over all turns
   double thrust_n() const { return thrust_at_speed_n(speed_rad_s_); }
   double current_a() const;
 
  private:
   double throttle_ = 0;
   double speed_rad_s_ = 0;
+  double position_rad_ = 0;
   bool jammed_ = false;
 };
 

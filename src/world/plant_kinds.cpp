@@ -1,0 +1,15 @@
+// The list of plants.
+#include "src/world/plant.hpp"
+#include "src/world/rov_plant.hpp"
+#include "src/world/scenario.hpp"
+#include "src/world/thruster.hpp"
+
+namespace gannet::world {
+
+double speed_told(double throttle) { return steady_speed_rad_s(throttle); }
+
+std::unique_ptr<Plant> make_plant(const VehicleScenario& vehicle) {
+  return std::make_unique<RovPlant>(vehicle.plant);
+}
+
+}  // namespace gannet::world
