@@ -20,6 +20,7 @@ class Checker {
     check_clock_and_frames();
     check_track();
     check_vehicle();
+    check_arm();
     check_drive();
     check_estop();
     check_kernel_times();
@@ -105,6 +106,26 @@ class Checker {
     const vehicle::RovConfig& rov = config_.vehicle.rov;
     if (rov.frame == "custom") return static_cast<int>(rov.thrusters.size());
     return rov.frame == "vectored" ? 6 : 8;
+  }
+
+  void check_arm() {
+    if (config_.vehicle.kind != "arm") return;
+    const vehicle::ArmConfig& arm = config_.vehicle.arm;
+    if (arm.robot == "custom" && arm.joints.empty())
+      return refuse("vehicle.arm.robot",
+                    "\"custom\" needs a table [[vehicle.arm.joint]] for each one");
+    if (arm.robot != "custom" && !arm.joints.empty())
+      refuse("vehicle.arm.joint", "is for robot \"custom\" only");
+    const std::size_t joints = vehicle::joints_of(arm).size();
+    if (config_.drive.motors.size() != joints)
+      refuse("drive.motor", std::to_string(config_.drive.motors.size()) + " motors for " +
+                                std::to_string(joints) +
+                                " joints; each needs one table [[drive.motor]], in their order");
+    if (config_.drive.kind != "cia402")
+      refuse("drive.kind", "\"" + config_.drive.kind +
+                               "\" tells no positions, which an arm needs; \"cia402\" does");
+    else if (!config_.drive.cia402.report_position)
+      refuse("drive.cia402.report_position", "must be true for an arm");
   }
 
   void check_vehicle() {

@@ -69,7 +69,11 @@ Result<Parts> make_parts(const config::LoadedConfig& loaded) {
   auto tracker = track::TargetTracker::create(config.track, loaded.rig, std::move(*models));
   if (!tracker) return at_key("track", tracker.error());
   parts.tracker = std::move(*tracker);
-  auto vehicle = vehicle::create_vehicle(config.vehicle);
+  vehicle::VehicleConfig vehicle_config = config.vehicle;
+  for (const hal::MotorConfig& motor : config.drive.motors)
+    vehicle_config.arm.full_speed_rad_s.push_back(motor.full_speed_rad_s * motor.max_command);
+  vehicle_config.agv.full_speed_rad_s = vehicle_config.arm.full_speed_rad_s;
+  auto vehicle = vehicle::create_vehicle(vehicle_config);
   if (!vehicle) return at_key("vehicle", vehicle.error());
   parts.vehicle = std::move(*vehicle);
   const bool has_vehicle = parts.vehicle->motors() > 0;

@@ -112,9 +112,11 @@ void describe(Visitor& v, RovConfig& c) {
 
 void describe(Visitor& v, VehicleConfig& c) {
   v.field("kind", c.kind,
-          {.choices = {"none", "rov"},
+          {.choices = {"none", "rov", "agv", "arm"},
            .help = "What is moved; \"none\" gives poses only and can never be armed."});
   v.group("rov", c.rov, "An underwater vehicle with thrusters.");
+  v.group("agv", c.agv, "A ground vehicle with two driven wheels.");
+  v.group("arm", c.arm, "A serial arm with the cameras on its hand, which is the body.");
 }
 
 }  // namespace gannet::vehicle

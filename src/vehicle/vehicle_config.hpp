@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "platform/base/describe.hpp"
+#include "src/vehicle/agv_config.hpp"
+#include "src/vehicle/arm_config.hpp"
 
 namespace gannet::vehicle {
 
@@ -54,8 +56,10 @@ struct RovConfig {
 };
 
 struct VehicleConfig {
-  std::string kind = "none";  // none | rov
+  std::string kind = "none";  // none | rov | agv | arm
   RovConfig rov;
+  AgvConfig agv;
+  ArmConfig arm;
 };
 
 void describe(Visitor& v, CurveConfig& c);

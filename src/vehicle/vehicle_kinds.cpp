@@ -1,4 +1,6 @@
 // The list of vehicles.
+#include "src/vehicle/agv.hpp"
+#include "src/vehicle/arm.hpp"
 #include "src/vehicle/rov.hpp"
 #include "src/vehicle/vehicle.hpp"
 
@@ -21,7 +23,9 @@ class NoVehicle final : public Vehicle {
 Result<std::unique_ptr<Vehicle>> create_vehicle(const VehicleConfig& config) {
   if (config.kind == "none") return std::unique_ptr<Vehicle>(std::make_unique<NoVehicle>());
   if (config.kind == "rov") return Rov::create(config.rov);
-  return Error{"vehicle.kind: unknown kind '" + config.kind + "'; known: none, rov"};
+  if (config.kind == "agv") return Agv::create(config.agv);
+  if (config.kind == "arm") return Arm::create(config.arm);
+  return Error{"vehicle.kind: unknown kind '" + config.kind + "'; known: none, rov, agv, arm"};
 }
 
 }  // namespace gannet::vehicle

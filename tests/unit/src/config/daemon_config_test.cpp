@@ -262,12 +262,32 @@ TEST(DaemonConfig, each_example_loads_with_its_rig) {
   if (!fs::exists("docs/examples")) GTEST_SKIP() << "not in the source tree";
   int examples = 0;
   for (const auto& entry : fs::directory_iterator("docs/examples")) {
-    if (entry.path().filename() == "rig.toml" || entry.path().extension() != ".toml") continue;
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with("rig.toml") || !name.ends_with(".toml")) continue;
     const auto loaded = load_daemon_config({entry.path().string(), {}});
     EXPECT_TRUE(loaded) << loaded.error().text;
     ++examples;
   }
   EXPECT_GE(examples, 2);
+}
+
+TEST(DaemonConfig, the_arm_example_writes_the_pa10_out) {
+  if (!fs::exists("docs/examples")) GTEST_SKIP() << "not in the source tree";
+  const auto loaded = load_daemon_config({"docs/examples/arm.toml", {}});
+  ASSERT_TRUE(loaded) << loaded.error().text;
+  vehicle::ArmConfig built_in, written = loaded->config.vehicle.arm;
+  built_in.robot = written.robot;
+  built_in.joints = vehicle::pa10_joints();
+  for (auto& joint : built_in.joints) joint.gear_ratio = 50;
+  EXPECT_EQ(commented_file(written), commented_file(built_in));
+  const auto refused = [](const char* set) {
+    const auto changed = load_daemon_config({"docs/examples/arm.toml", {set}});
+    return changed ? std::string() : changed.error().text;
+  };
+  EXPECT_NE(refused("drive.cia402.report_position=false").find("must be true for an arm"),
+            std::string::npos);
+  EXPECT_NE(refused("drive.kind=vesc").find("tells no positions"), std::string::npos);
+  EXPECT_NE(refused("vehicle.arm.robot=pa10").find("custom"), std::string::npos);
 }
 
 }  // namespace
