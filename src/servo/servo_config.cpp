@@ -60,6 +60,12 @@ void describe_goal(Visitor& v, ServoParams& p) {
           {.min = -89, .max = 89, .unit = "deg", .help = "The same about the hand's y."});
   v.field("goal_yaw_deg", p.goal_yaw_deg,
           {.min = -180, .max = 180, .unit = "deg", .help = "The same about the hand's z."});
+  v.field("near_m", p.near_m,
+          {.min = 0,
+           .max = 20,
+           .unit = "m",
+           .help = "follow_person: nearer than this it never drives, and between this and the "
+                   "goal's distance ever more slowly."});
 }
 
 void describe_axes(Visitor& v, ServoParams& p) {
@@ -74,7 +80,10 @@ void describe_axes(Visitor& v, ServoParams& p) {
 }  // namespace
 
 void describe(Visitor& v, ServoConfig& c) {
-  v.field("law", c.law, {.choices = {"pose_regulation"}, .help = "How errors become motion."});
+  v.field("law", c.law,
+          {.choices = {"pose_regulation", "follow_person"},
+           .help = "How errors become motion: to a pose, or behind somebody at the goal's distance "
+                   "and bearing."});
   describe_limits(v, c.params);
   describe_goal(v, c.params);
   describe_axes(v, c.params);

@@ -24,6 +24,7 @@ struct ServoParams {
   double goal_roll_deg = 0;  // R = Rz(yaw)·Ry(pitch)·Rx(roll) about Σ_H's x, y, z
   double goal_pitch_deg = 0;
   double goal_yaw_deg = 0;
+  double near_m = 1.5;  // of follow_person: nearer than this it never drives
   // Axes of the body (REP-103) that the law asks for; the vehicle may leave some unreachable.
   bool control_x = true;
   bool control_y = true;

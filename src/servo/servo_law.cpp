@@ -1,6 +1,7 @@
 // The list of servo laws.
 #include "src/servo/servo_law.hpp"
 
+#include "src/servo/follow_person.hpp"
 #include "src/servo/pose_regulation.hpp"
 
 namespace gannet::servo {
@@ -14,7 +15,12 @@ Result<std::unique_ptr<ServoLaw>> create_servo_law(const ServoConfig& config,
     return std::unique_ptr<ServoLaw>(
         std::make_unique<PoseRegulation>(config.params, rig.hand_from_left, *rig.body_from_hand));
   }
-  return Error{"servo.law: unknown law '" + config.law + "'; known: pose_regulation"};
+  if (config.law == "follow_person") {
+    return std::unique_ptr<ServoLaw>(
+        std::make_unique<FollowPerson>(config.params, rig.hand_from_left, *rig.body_from_hand));
+  }
+  return Error{"servo.law: unknown law '" + config.law +
+               "'; known: pose_regulation, follow_person"};
 }
 
 }  // namespace gannet::servo
