@@ -68,6 +68,8 @@ VescDrive::VescDrive(const DriveConfig& config)
       own_id_(config.own_node_id),
       feedback_timeout_(from_seconds(config.feedback_timeout_s)),
       command_period_(from_seconds(config.command_period_s)),
+      // No shorter than an absence may go unseen: else one could be left alone while it is away.
+      stop_time_(std::max(from_seconds(config.vesc.stop_time_s), feedback_timeout_)),
       mode_(*mode_named(config.vesc.mode)),
       feedback_(config.motors.size(),
                 {.current_a = kNan, .voltage_v = kNan, .temperature_k = kNan}) {
@@ -140,7 +142,7 @@ bool VescDrive::take_answer(const CanFrame& frame, TimePoint time) {
     feedback.fault_code = answer->value;
   } else if (answer->mask == kTimeoutMask) {
     const bool has_timed_out = (answer->value & 1) != 0;
-    if (has_timed_out && is_silent(time)) axis.guard = Guard::kProven;
+    if (has_timed_out && is_silent(axis, time)) axis.guard = Guard::kProven;
   } else {
     return false;
   }
@@ -149,9 +151,9 @@ bool VescDrive::take_answer(const CanFrame& frame, TimePoint time) {
 
 // ---- frames out ---------------------------------------------------------------------------------
 
-// Stops are repeated for a while, then the bus is left alone.
-bool VescDrive::is_silent(TimePoint now) const {
-  return has_started_ && !is_enabled_ && now - disabled_ > from_seconds(config_.stop_time_s);
+// Stops are repeated for a while, then a VESC that is there is left alone.
+bool VescDrive::is_silent(const Axis& axis, TimePoint now) const {
+  return has_started_ && !is_enabled_ && now - std::max(disabled_, axis.absent) > stop_time_;
 }
 
 bool VescDrive::is_command_due(bool enable, TimePoint now) {
@@ -159,7 +161,6 @@ bool VescDrive::is_command_due(bool enable, TimePoint now) {
   if (is_change && !enable) disabled_ = now;
   has_started_ = true;
   is_enabled_ = enable;
-  if (is_silent(now)) return false;
   if (!is_change && now - last_command_ < command_period_) return false;
   last_command_ = now;
   return true;
@@ -176,9 +177,12 @@ CanFrame VescDrive::command(const Axis& axis, std::optional<double> setpoint) co
 int VescDrive::send(std::span<const DriveSetpoint> setpoints, bool enable, TimePoint now,
                     std::span<CanFrame> out) {
   const bool is_first = !has_started_;
+  watch(now);
   std::size_t n = 0;
   if (is_command_due(enable, now)) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
+      if (is_silent(axes_[i], now)) continue;
+      axes_[i].commanded = now;
       const bool is_good = i < setpoints.size() && !std::isnan(setpoints[i].value);
       if (enable && !is_good) ++bad_setpoints_;
       std::optional<double> setpoint;
@@ -195,7 +199,6 @@ int VescDrive::send(std::span<const DriveSetpoint> setpoints, bool enable, TimeP
         question_frame(own_id_, axis.node, axis.asks_for_timeout ? kTimeoutMask : kFaultMask);
     axis.asks_for_timeout = !axis.asks_for_timeout;
   }
-  watch(now);
   set_states(now);
   return static_cast<int>(n);
 }
@@ -218,8 +221,8 @@ void VescDrive::watch(TimePoint now) {
       guard = Guard::kUnknown;  // it may come back as another, or set otherwise
       axes_[i].absent = now;
       feedback_[i].fault_code = 0;
-    } else if (guard == Guard::kUnknown && is_silent(now) &&
-               now - std::max(last_command_, axes_[i].absent) > limit) {
+    } else if (guard == Guard::kUnknown && is_silent(axes_[i], now) &&
+               now - std::max(axes_[i].commanded, axes_[i].absent) > limit) {
       guard = Guard::kMissing;
     }
   }

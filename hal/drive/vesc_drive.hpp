@@ -4,7 +4,9 @@
 //
 // Out: while enabled a command to each VESC in each call of send (or as command_period_s says);
 // after that the stop for stop_time_s, then silence: the VESC's own time-out must pass, which is
-// asked of it, so that it is known and not believed that a VESC stops when we die. One that does
+// asked of it, so that it is known and not believed that a VESC stops when we die. One that is not
+// alive is told to stop until it has been back for stop_time_s: a bus that returns may bring it old
+// commands first, from a queue. One that does
 // not time out within guard_time_s is not guarded, or hears other commands than ours. Each VESC is
 // asked for its fault and its time-out ten times a second.
 // In: STATUS 1, 4 and 5, and the answers. A motor is alive while STATUS 1 is fresh.
@@ -53,14 +55,15 @@ class VescDrive final : public DriveGroup {
     Guard guard = Guard::kUnknown;
     bool asks_for_timeout = false;  // turn by turn with the fault
     TimePoint next_question = {};
-    TimePoint absent = {};  // when it was so last
+    TimePoint absent = {};     // when it was so last
+    TimePoint commanded = {};  // last
   };
 
   explicit VescDrive(const DriveConfig& config);
   bool take_answer(const CanFrame& frame, TimePoint time);
   CanFrame command(const Axis& axis, std::optional<double> setpoint) const;
   bool is_command_due(bool enable, TimePoint now);
-  bool is_silent(TimePoint now) const;
+  bool is_silent(const Axis& axis, TimePoint now) const;
   bool is_alive(std::size_t i, TimePoint now) const;
   bool is_guarded(const Axis& axis) const;
   void watch(TimePoint now);
@@ -68,7 +71,7 @@ class VescDrive final : public DriveGroup {
 
   const VescConfig config_;
   const int own_id_;
-  const Duration feedback_timeout_, command_period_;
+  const Duration feedback_timeout_, command_period_, stop_time_;
   vesc::Command mode_;
   std::vector<Axis> axes_;
   std::array<std::int16_t, 256> axis_of_ = {};  // by id; −1: nobody's

@@ -14,6 +14,8 @@
 namespace gannet::hal {
 namespace {
 
+const char* const kStatus = "00000915#0000000000000000";
+
 constexpr TimePoint at_ms(std::int64_t ms) { return TimePoint(std::chrono::milliseconds(ms)); }
 
 DriveConfig with_motors(int motors) {
@@ -61,6 +63,15 @@ class VescDriveTest : public testing::Test {
       send({}, false);
     }
   }
+  int stops_in(int cycles, const Texts& heard) {
+    int stops = 0;
+    for (int i = 0; i < cycles; ++i) {
+      hear(heard);
+      const Texts sent = send({1}, false);
+      stops += static_cast<int>(std::count(sent.begin(), sent.end(), "00000115#00000000"));
+    }
+    return stops;
+  }
   DriveGroupHealth health() const { return sut_->health(at_ms(ms_)); }
 
   std::unique_ptr<VescDrive> sut_;
@@ -92,12 +103,40 @@ TEST_F(VescDriveTest, CommandsCurrent) {
 
 TEST_F(VescDriveTest, StopsForAWhileThenKeepsSilent) {
   make(with_motors(1));
+  hear({kStatus});
   send({1}, true);
   EXPECT_EQ(send({1}, false), (Texts{"00000115#00000000"}));
-  int stops = 0;
-  for (int i = 0; i < 400; ++i) stops += static_cast<int>(send({1}, false).size());
-  EXPECT_EQ(stops, 100);  // half a second
+  EXPECT_EQ(stops_in(400, {kStatus}), 100);  // half a second
+  hear({kStatus});
   EXPECT_EQ(send({0.1}, true).size(), 1u);
+}
+
+// What waited in a queue may reach it when the bus or its supply returns: a stop must follow.
+TEST_F(VescDriveTest, OneThatIsAwayIsToldToStopUntilItHasBeenBackForAWhile) {
+  make(with_motors(1));
+  hear({kStatus});
+  send({1}, true);
+  EXPECT_EQ(stops_in(1000, {}), 1000);
+  EXPECT_EQ(stops_in(400, {kStatus}), 100);
+  EXPECT_TRUE(send({1}, false).empty());
+}
+
+TEST_F(VescDriveTest, OneThatIsAwayDoesNotKeepTheOthersFromShowingTheirTimeOut) {
+  make(with_motors(2));
+  idle(120, {kStatus});
+  EXPECT_EQ(send({}, false), (Texts{"00000116#00000000"}));
+  hear({answer(0x15, true, 1)});
+  EXPECT_EQ(health().first_bad, 1);
+}
+
+// Else one that was cut off as it was disabled could be left alone before it is missed.
+TEST_F(VescDriveTest, StopsAreSaidForNoShorterThanAnAbsenceGoesUnseen) {
+  DriveConfig config = with_motors(1);
+  config.vesc.stop_time_s = 0.1;
+  make(config);
+  hear({kStatus});
+  send({1}, true);
+  EXPECT_EQ(stops_in(400, {}), 400);
 }
 
 TEST_F(VescDriveTest, StopsByTheBrakeWhereTheConfigSaysSo) {
