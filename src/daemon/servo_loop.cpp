@@ -343,15 +343,15 @@ void ServoLoop::tell_devices(TimePoint now) {
   const hal::DriveGroupHealth before = report_.drives;
   report_.drives = links_.drives->health(now);
   const hal::DriveGroupHealth& after = report_.drives;
+  const int motor = after.first_bad + 1;  // people count from 1, as the config's errors do
   if (!after.all_ready && after.trouble_code != 0 && before.trouble_code != after.trouble_code) {
-    links_.events->raise(
-        make_event(telemetry::kDriveRefused, now, after.first_bad, after.trouble_code));
+    links_.events->raise(make_event(telemetry::kDriveRefused, now, motor, after.trouble_code));
   }
   if (before.all_alive == after.all_alive && before.any_fault == after.any_fault) return;
   const EventCode code = after.any_fault   ? telemetry::kDriveFault
                          : after.all_alive ? telemetry::kDrivesGood
                                            : telemetry::kDriveSilent;
-  links_.events->raise(make_event(code, now, after.first_bad, after.trouble_code));
+  links_.events->raise(make_event(code, now, motor, after.trouble_code));
 }
 
 }  // namespace gannet::daemon

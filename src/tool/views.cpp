@@ -129,8 +129,10 @@ std::string drives_text(const Json& drives) {
   if (trouble.is_string() && trouble != "" && code.is_number_unsigned()) {
     char number[24];
     std::snprintf(number, sizeof number, " (0x%X)", code.get<unsigned>());
-    text +=
-        ", motor " + word(member(drives, "first_bad")) + ": " + trouble.get<std::string>() + number;
+    const Json& index = member(drives, "first_bad");
+    const std::string motor =
+        index.is_number_integer() ? std::to_string(index.get<int>() + 1) : word(index);
+    text += ", motor " + motor + ": " + trouble.get<std::string>() + number;
   }
   return text + ", bus " + word(member(drives, "bus"));
 }

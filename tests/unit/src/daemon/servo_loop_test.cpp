@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 
 #include "src/daemon/reports.hpp"
 #include "src/telemetry/event_codes.hpp"
@@ -251,10 +252,14 @@ TEST_F(ServoLoopTest, holds_when_the_estimate_is_too_old) {
 
 TEST_F(ServoLoopTest, faults_when_a_drive_is_silent_or_the_bus_is_down) {
   start_servoing();
+  for (Event event; events_.take(event);) continue;
   drives_.says = {.all_alive = false, .first_bad = 2};
   step();
   EXPECT_EQ(report_.read().supervisor.cause, Cause::kDrivesSilent);
   EXPECT_FALSE(drives_.enabled);
+  std::string told;
+  for (Event event; events_.take(event);) told += telemetry::text_of(event, word_of) + "; ";
+  EXPECT_NE(told.find("motor 3 is not heard"), std::string::npos) << told;
   drives_.says = {.all_alive = true};
   ask(Request::kReset);
   EXPECT_EQ(state(), State::kStandby);

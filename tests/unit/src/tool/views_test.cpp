@@ -30,7 +30,7 @@ TEST(Views, status_tells_what_is_wrong_with_which_drive) {
     "all_alive": true, "any_fault": true, "all_ready": true, "guards_itself": true, "bus": "good",
     "first_bad": 2, "trouble": "heartbeat lost", "trouble_code": 33072}})");
   EXPECT_NE(status_text(status).find(
-                "all alive, one in fault, motor 2: heartbeat lost (0x8130), bus good"),
+                "all alive, one in fault, motor 3: heartbeat lost (0x8130), bus good"),
             std::string::npos)
       << status_text(status);
   const Json refused = Json::parse(R"({"drives": {
