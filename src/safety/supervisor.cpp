@@ -108,7 +108,8 @@ Cause arming_obstacle(const SafetyConfig& config, State state, const Inputs& in)
   Cause cause = estop_cause(in);
   if (in.internal_fault) cause = first(cause, Cause::kInternalFault);
   if (state == S || state == F) cause = first(cause, Cause::kNotReset);
-  if (state == A) cause = first(cause, Cause::kNotStarted);
+  // Also in Standby, which a reset reaches from a Stopped that came before every loop had run.
+  if (state == A || !in.started) cause = first(cause, Cause::kNotStarted);
   if (!in.has_vehicle) cause = first(cause, Cause::kNoVehicle);
   cause = first(cause, fault_cause(in));
   if (!in.drives_ready) cause = first(cause, Cause::kDrivesNotReady);

@@ -205,6 +205,13 @@ const Row kRows[] = {
        in.internal_fault = true;
      },
      "FFFFFSF", Cause::kInternalFault},
+    {"arm, not started",
+     [](Inputs& in) {
+       in.request = Request::kArm;
+       in.started = false;
+       hand(in, 0.1);
+     },
+     "ABDDDSF"},
     {"arm, no vehicle",
      [](Inputs& in) {
        in.request = Request::kArm;
@@ -346,6 +353,13 @@ TEST(Supervisor, says_why_it_refuses) {
       {[](Inputs& in) { in.limits_exceeded = true; }, State::kStandby, Cause::kLimits},
       {[](Inputs& in) { in.camera_alive = false; }, State::kStandby, Cause::kNoCamera},
       {[](Inputs&) {}, State::kStarting, Cause::kNotStarted},
+      // Stopped while starting, reset: a loop may still never have run.
+      {[](Inputs& in) { in.started = false; }, State::kStandby, Cause::kNotStarted},
+      {[](Inputs& in) {
+         in.started = false;
+         hand(in, 0.1);
+       },
+       State::kStandby, Cause::kNotStarted},
       {[](Inputs&) {}, State::kStopped, Cause::kNotReset},
       {[](Inputs&) {}, State::kFaulted, Cause::kNotReset},
       {[](Inputs&) {}, State::kStandby, Cause::kNone},
