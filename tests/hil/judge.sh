@@ -86,3 +86,31 @@ drives_rpm() {
       }
     } END {print most}' can
 }
+
+# Of the time between FROM and TO, in percent, the share that the daemon was in STATE by its journal.
+state_share() {  # STATE FROM TO
+  awk -v state="$1" -v from="$2" -v to="$3" '
+    function count(until) {
+      if (now == state && until > from) sum += (until < to ? until : to) - (since > from ? since : from)
+    }
+    / gannetd\[.* → / && $1 + 0 < to + 0 {count($1); since = $1; for (i = 1; i < NF; i++) if ($i == "→") now = $(i + 1)}
+    END {count(to); printf "%.0f", 100 * sum / (to - from)}' journal
+}
+
+# What tshark and python-can read in the recorded bus: into `decoded`; both must find every frame.
+# Skipped, and said so, where they are not installed.
+decode() {
+  "$here/decode.sh" . >decoded
+  local reader frames
+  frames=$(sed -n 's/^frames recorded: //p' decoded)
+  check "frames recorded" "$frames" ">" 100
+  for reader in tshark python-can; do
+    grep -q "^$reader: not installed" decoded || check "frames by $reader" "$(found "$reader: frames")" = "$frames"
+  done
+  grep -q '^tshark: CANopen' decoded || return 0
+  check "tshark: all are CANopen" "$(found 'tshark: CANopen')" = "$frames"
+  check "tshark: malformed, refused SDOs" "$(found 'tshark: malformed') $(found 'tshark: SDO refused')" = "0 0"
+  check "tshark: objects set up by SDO" "$(found 'tshark: SDO writes')" ">" 20
+  check "tshark: drives operational" "$(found 'tshark: drives operational')" = 8
+}
+found() { sed -n "s/^$1: //p" decoded; }

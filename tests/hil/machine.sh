@@ -25,7 +25,11 @@ disk() {  # FOLDER IMAGE
 
 prepare() {
   "$here/guest/build.sh" "$cache"
-  [ "$cache/poke" -nt "$here/guest/poke.c" ] || gcc -O2 -Wall -Wextra -Werror -static -o "$cache/poke" "$here/guest/poke.c"
+  local tool
+  for tool in poke hold; do
+    [ "$cache/$tool" -nt "$here/guest/$tool.c" ] ||
+      gcc -O2 -Wall -Wextra -Werror -static -o "$cache/$tool" "$here/guest/$tool.c"
+  done
 }
 
 install_package() {
@@ -45,7 +49,7 @@ install_package() {
   rm -r "$work"
   mkdir "$work"
   cp --sparse=always "$cache/base.ext4" "$cache/ready.ext4"
-  keep= shell= boot "$cache/ready.ext4" on "$cache/install.ext4" 1 "$cache/install.console" 300
+  keep= shell= boot "$cache/ready.ext4" on "$cache/install.ext4" 1 "$cache/install.console" 1200
   debugfs -R "rdump /out $work" "$cache/install.ext4" 2>/dev/null
   [ "$(cat "$work/out/rc" 2>/dev/null)" = 0 ] || { cat "$work/out/log" "$cache/install.console" >&2; exit 1; }
   rm "$cache/install.ext4"
@@ -63,11 +67,11 @@ run_scenario() {  # NAME SEED RESULTS
   (flock 9; install_package) 9>"$cache/lock"
   files=$results/files
   mkdir -p "$files/out"
-  cp "$here"/guest/start "$here"/guest/lib.sh "$cache/poke" "$files"
+  cp "$here"/guest/start "$here"/guest/lib.sh "$cache"/{poke,hold} "$files"
   cp "$here/scenarios/$name.sh" "$files/scenario.sh"
   (
     . "$here/scenarios/$name.sh"
-    sed -e "s|@CHECKS@|${CHECKS:-}|; s|@DURATION@|${DURATION:-9}|" "$here/world.toml"
+    sed -e "s|@CHECKS@|${CHECKS:-}|; s|@DURATION@|${DURATION:-9}|; s|@DRIVES@|${DRIVES:-dronecan_esc}|" "$here/world.toml"
     printf '%s\n' "${EVENTS:-}" | sed -n 's/^ *\([0-9.]*\) s: \(.*\)/[[event]]\nat_s = \1\ndo = "\2"/p'
   ) >"$files/scenario.toml"
   { echo "SEED=$seed"; echo "SHELL_WANTED=$shell"; } >>"$files/lib.sh"
@@ -75,7 +79,7 @@ run_scenario() {  # NAME SEED RESULTS
   disk "$files" "$results/disk.ext4"
   rm -r "$files"
   [ -e "$cache/ready.stamp" ] || return 1
-  boot "$cache/ready.ext4" off "$results/disk.ext4" "$seed" "$results/console" "${HOST_LIMIT_S:-300}" || return 1
+  boot "$cache/ready.ext4" off "$results/disk.ext4" "$seed" "$results/console" "${HOST_LIMIT_S:-1200}" || return 1
   debugfs -R "rdump /out $results" "$results/disk.ext4" 2>/dev/null
   mv "$results"/out/* "$results"
   rmdir "$results/out"

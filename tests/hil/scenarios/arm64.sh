@@ -26,7 +26,7 @@ machine() {  # SEED RESULTS
   printf 'format = 1\nrig = "/usr/share/doc/gannet/examples/rig.toml"\n[can]\nkind = "memory"\n' >"$root/etc/gannet/gannet.toml"
   (cd "$root" && find . | sort | cpio --quiet -o -H newc -R 0:0 --reproducible | gzip -1) >"$2/initrd"
   rm -r "$root"
-  timeout --foreground "${HOST_LIMIT_S:-300}" qemu-system-aarch64 -accel tcg,thread=single -icount shift=0,sleep=off \
+  timeout --foreground "${HOST_LIMIT_S:-1200}" qemu-system-aarch64 -accel tcg,thread=single -icount shift=0,sleep=off \
     -seed "$1" -M virt,gic-version=3 -cpu cortex-a72 -m 1024 -nodefaults -display none -no-reboot \
     -kernel "$out/vmlinuz" -initrd "$2/initrd" -append "console=ttyAMA0 quiet panic=-1" -serial "file:$2/console"
   rm "$2/initrd"

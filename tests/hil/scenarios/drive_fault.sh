@@ -2,7 +2,7 @@
 EVENTS='
   5 s: fault drive 3
 '
-CHECKS='"permit none within 600 ms of fault drive 3", "state faulted within 700 ms of fault drive 3", "state is faulted at 8.5 s"'
+CHECKS='"permit none within 100 ms of fault drive 3", "state faulted within 150 ms of fault drive 3", "state is faulted at 8.5 s"'
 play() {
   world_up
   daemon_up
@@ -12,4 +12,5 @@ play() {
 judge() {
   world_checks
   check "the journal names the motor" "$(said 'motor 3 reports a fault')" ">=" 1
+  check "restarts" "$(value unit NRestarts)" = 0
 }

@@ -12,4 +12,5 @@ play() {
 judge() {
   world_checks
   check "the journal names the motor" "$(said 'motor 3 is not heard')" ">=" 1
+  check "restarts" "$(value unit NRestarts)" = 0
 }

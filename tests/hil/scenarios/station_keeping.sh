@@ -11,6 +11,8 @@ play() {
     echo "$(cat "$task/comm") $(chrt -p "${task##*/}" | awk -F': ' '{printf "%s ", $2}')"
   done >$OUT/threads
   world_ends
+  systemd-analyze security gannetd --no-pager >$OUT/security
+  dpkg-query -W -f '${Package} ${Version}: ${Installed-Size} KiB, needs ${Depends}\n' 'gannet*' >$OUT/packages
 }
 judge() {
   check "systemctl start returns" "$(ms "$(at start)" "$(at started)")" "<" 3000 ms
@@ -21,4 +23,6 @@ judge() {
   check "servo wake-up, longest" "$(value top-servoing latencies.servo_jitter.max_us)" "<" 100 us
   check "servo, capture, vision: priorities" "$(for t in servo capture vision; do
     awk -v t="gannet-$t" '$1 == t {printf "%s ", $3}' threads; done)" = "80 70 50 "
+  check "systemd-analyze security, exposure" "$(sed -n 's/.*exposure level for gannetd.service: \([0-9.]*\).*/\1/p' security)" "<=" 1.5
+  check "installed size of gannet" "$(sed -n 's/^gannet .*: \([0-9]*\) KiB.*/\1/p' packages)" "<" 20000 KiB
 }

@@ -1,29 +1,29 @@
-# The vision thread gets no processor: put at idle priority beside a loop at normal one. The watchdog
-# is not fed, systemd ends the daemon and starts it anew.
+# The vision thread stops for good, as if it hung. The ROV holds, the watchdog is not fed, systemd ends
+# the daemon and starts it anew, into standby; nothing moves until a person arms it.
+DURATION=30
 play() {
   world_up
   daemon_up
   servoing
   pid=$(systemctl show -P MainPID gannetd)
   for task in /proc/$pid/task/*; do
-    case $(cat $task/comm) in gannet-vision*) thread=${task##*/} ;; esac
+    case $(cat $task/comm) in gannet-vision) thread=${task##*/} ;; esac
   done
-  sh -c 'while :; do :; done' & HOG=$!
-  mark hung
-  chrt --idle -p 0 "$thread"
+  ./hold "$thread" hung >>$OUT/marks &
   until_true 10 restarted
-  mark restarted
-  kill $HOG
-  sleep 5
+  until_true 5 state_is standby
+  sleep 0.5
   mark "state $(state)"
 }
 restarted() { [ "$(systemctl show -P NRestarts gannetd)" -ge 1 ]; }
 judge() {
-  local holds
-  holds=$(logged "$(at hung)" 'servoing → holding')
-  check "hung to holding, full_age_s 0.3" "$(ms "$(at hung)" "$holds")" "<" 600 ms
-  check "hung to the watchdog, WatchdogSec 2 s" "$(ms "$(at hung)" "$(logged "$(at hung)" 'Watchdog timeout')")" "<" 3500 ms
+  local killed
+  killed=$(logged "$(at hung)" 'Watchdog timeout')
+  check "hung to holding, full_age_s 0.3" "$(ms "$(at hung)" "$(logged "$(at hung)" 'servoing → holding')")" "<" 600 ms
+  check "hung to the watchdog, WatchdogSec 2 s" "$(ms "$(at hung)" "$killed")" "<" 3500 ms
   check "the journal names the loop" "$(said 'loops stand still: .*vision')" ">=" 1
-  check "commands to turn after the watchdog" "$(turns_between "$(logged "$(at hung)" 'Watchdog timeout')")" = 0
-  check "watchdog to standby" "$(ms "$(logged "$(at hung)" 'Watchdog timeout')" "$(logged "$(at restarted)" 'starting → standby')")" "<" 4000 ms
+  check "watchdog to standby" "$(ms "$killed" "$(logged "${killed:-9e9}" 'starting → standby')")" "<" 2500 ms
+  check "commands to turn after the watchdog" "$(turns_between "${killed:-9e9}")" = 0
+  check "restarts" "$(value unit NRestarts)" = 1
+  check "standby at the end" "$(at state standby)" != ""
 }
