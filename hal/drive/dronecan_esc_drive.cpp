@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::uint8_t kCommandPriority = 8, kStatusPriority = 16, kServicePriority = 24;
 constexpr Duration kArmingPeriod = std::chrono::milliseconds(500);
+constexpr Duration kUrgentStops = std::chrono::milliseconds(300);  // in each cycle: one may be lost
 constexpr Duration kHeartbeatPeriod = std::chrono::seconds(1);
 constexpr double kRadPerSPerRpm = 2 * std::numbers::pi / 60;
 
@@ -198,7 +199,10 @@ int DroneCanEscDrive::send(std::span<const DriveSetpoint> setpoints, bool enable
   const bool is_change = !has_started_ || enable != is_enabled_;
   has_started_ = true;
   is_enabled_ = enable;
-  if (is_change) command_timer_.was_set = arming_timer_.was_set = false;
+  if (is_change) {
+    changed_ = now;
+    command_timer_.was_set = arming_timer_.was_set = false;
+  }
   set_states(now);
 
   std::size_t n = 0;
@@ -213,7 +217,8 @@ int DroneCanEscDrive::send(std::span<const DriveSetpoint> setpoints, bool enable
 
 int DroneCanEscDrive::send_commands(std::span<const DriveSetpoint> setpoints, bool enable,
                                     TimePoint now, std::span<CanFrame> out) {
-  if (!command_timer_.is_due(now)) return 0;
+  const bool is_urgent = !enable && now - changed_ <= kUrgentStops;
+  if (!command_timer_.is_due(now) && !is_urgent) return 0;
   for (std::size_t i = 0; i < motors_.size(); ++i) {
     std::int16_t& command = command_.commands[motors_[i].index];
     command = range_.stop;

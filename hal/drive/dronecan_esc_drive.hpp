@@ -2,10 +2,10 @@
 // node ids. A setpoint is a thrust fraction −1 … 1, by the vehicle's sign; NaN stops.
 //
 // Out: RawCommand for all ESC indices in each call of send (or as command_period_s says), the
-// range's stop for every motor while not enabled; ArmingStatus twice a second and at a change; our
-// NodeStatus once a second; GetNodeInfo asked of each motor's node and answered.
-// In: esc.Status, NodeStatus, GetNodeInfo, and the Allocation requests of nodes that have no id:
-// these are counted and shown, never granted.
+// range's stop for every motor while not enabled, in each call for the first 0.3 s; ArmingStatus
+// twice a second and at a change; our NodeStatus once a second; GetNodeInfo asked of each motor's
+// node and answered. In: esc.Status, NodeStatus, GetNodeInfo, and the Allocation requests of nodes
+// that have no id: these are counted and shown, never granted.
 //
 // A motor is alive when its node's heartbeat and, where it has feedback, its status are fresh.
 // In feedback a value that the ESC does not know is NaN. Servo thread; RT safe after creation.
@@ -106,7 +106,7 @@ class DroneCanEscDrive final : public DriveGroup {
 
   bool is_enabled_ = false;
   bool has_started_ = false;
-  TimePoint start_ = {};
+  TimePoint start_ = {}, changed_ = {};  // the first cycle; enable was given or taken away
   Timer command_timer_, arming_timer_, heartbeat_timer_;
   std::uint8_t command_id_ = 0, arming_id_ = 0, heartbeat_id_ = 0;
   std::array<std::uint8_t, dronecan::kMaxNodeId + 1> request_ids_ = {};

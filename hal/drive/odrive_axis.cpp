@@ -95,9 +95,9 @@ int OdriveAxis::speak(std::optional<double> setpoint, bool enable, TimePoint now
 }
 
 int OdriveAxis::stop(TimePoint now, std::span<CanFrame> out) {
-  const bool is_new = now == since_;
-  const bool runs = has_heartbeat_ && state_ != kIdle && heartbeat_ > since_;
-  if (!is_new && !(runs && now - asked_ >= kAskAgain)) return 0;
+  const bool is_idle = has_heartbeat_ && state_ == kIdle && heartbeat_ > since_;
+  // A request may be lost or refused by the bus.
+  if (is_idle || (now - since_ > kIdleTime && now - asked_ < kAskAgain)) return 0;
   asked_ = now;
   std::size_t n = 0;
   out[n++] = state_frame(settings_.node, kIdle);

@@ -1,7 +1,8 @@
 // OdriveAxis: one axis of an ODrive as we see it over CANSimple: led into closed loop and out of
 // it, watched, and its watchdog proven. Never blocks: what is due is written out in each cycle.
 //
-//   not enabled: idle is asked for until the axis says it, then silence. Any frame to the axis
+//   not enabled: idle is asked for, in each cycle at first, until a heartbeat newer than the first
+//     request says it, then silence. Any frame to the axis
 //     feeds its watchdog, so that only silence shows whether it expires. An axis that stays in
 //     closed loop is stopped by Estop.
 //   enabled: errors of the watchdog cleared, velocity control, speed 0, closed loop asked for until

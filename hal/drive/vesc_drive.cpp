@@ -161,7 +161,8 @@ bool VescDrive::is_command_due(bool enable, TimePoint now) {
   if (is_change && !enable) disabled_ = now;
   has_started_ = true;
   is_enabled_ = enable;
-  if (!is_change && now - last_command_ < command_period_) return false;
+  // Stops have no period: the bus may refuse one.
+  if (enable && !is_change && now - last_command_ < command_period_) return false;
   last_command_ = now;
   return true;
 }

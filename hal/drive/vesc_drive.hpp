@@ -3,14 +3,13 @@
 // none, stops.
 //
 // Out: while enabled a command to each VESC in each call of send (or as command_period_s says);
-// after that the stop for stop_time_s, then silence: the VESC's own time-out must pass, which is
-// asked of it, so that it is known and not believed that a VESC stops when we die. One that is not
-// alive is told to stop until it has been back for stop_time_s: a bus that returns may bring it old
-// commands first, from a queue. One that does
-// not time out within guard_time_s is not guarded, or hears other commands than ours. Each VESC is
-// asked for its fault and its time-out ten times a second.
-// In: STATUS 1, 4 and 5, and the answers. A motor is alive while STATUS 1 is fresh.
-// In feedback a value not yet heard is NaN. Servo thread; RT safe after creation.
+// after that the stop, in each call, for stop_time_s, then silence: the VESC's own time-out must
+// pass, which is asked of it, so that it is known and not believed that a VESC stops when we die.
+// One that is not alive is told to stop until it has been back for stop_time_s: a bus that returns
+// may bring it old commands first, from a queue. One that does not time out within guard_time_s is
+// not guarded, or hears other commands than ours. Each VESC is asked for its fault and its time-out
+// ten times a second. In: STATUS 1, 4 and 5, and the answers. A motor is alive while STATUS 1 is
+// fresh. In feedback a value not yet heard is NaN. Servo thread; RT safe after creation.
 #pragma once
 
 #include <array>

@@ -141,8 +141,16 @@ TEST_F(DroneCanEscDriveTest, ALongerCommandPeriodDoesNotDelayAStop) {
   }
   EXPECT_EQ(sent, 10);
   EXPECT_EQ(commands({1}, false, at_ms(205)), std::vector<int>{0});  // 180, then 200 was due: sent
-  EXPECT_TRUE(messages<RawCommand>(send({1}, false, at_ms(210))).empty());
-  EXPECT_EQ(commands({1}, true, at_ms(215)), std::vector<int>{8191});
+  // A bus that refuses one must not delay it by a period.
+  for (int ms = 210; ms <= 505; ms += 5) {
+    EXPECT_EQ(commands({1}, false, at_ms(ms)), std::vector<int>{0});
+  }
+  sent = 0;
+  for (int ms = 510; ms < 710; ms += 5) {
+    sent += static_cast<int>(messages<RawCommand>(send({1}, false, at_ms(ms))).size());
+  }
+  EXPECT_EQ(sent, 10);
+  EXPECT_EQ(commands({1}, true, at_ms(715)), std::vector<int>{8191});
 }
 
 TEST_F(DroneCanEscDriveTest, HeartbeatOnceASecondWithUptime) {

@@ -87,6 +87,24 @@ TEST_F(OdriveDriveTest, AsksForIdleOnceThenKeepsSilent) {
   EXPECT_EQ(run(400, false, {heartbeat(3, kNone, 1), estimates(3)}), (Texts{"067#01000000"}));
 }
 
+// One frame may be lost, or refused by the bus; what it said before is no answer.
+TEST_F(OdriveDriveTest, AsksForIdleInEachCycleUntilANewerHeartbeatSaysIt) {
+  make_ready(1);
+  send(0.5, true);
+  run(10, true, {heartbeat(3, kNone, 8), estimates(3)});
+  hear({heartbeat(3, kNone, 1)});
+  EXPECT_EQ(run(20, false, {estimates(3)}), Texts(20, "067#01000000"));
+  EXPECT_TRUE(run(100, false, {heartbeat(3, kNone, 1), estimates(3)}).empty());
+}
+
+TEST_F(OdriveDriveTest, AsksOneThatSaysNothingForIdleMoreSeldomAfterAWhile) {
+  make_ready(1);
+  send(0.5, true);
+  run(10, true, {heartbeat(3, kNone, 8), estimates(3)});
+  const Texts sent = run(61 + 400, false, {});  // 0.3 s, then 2 s
+  EXPECT_EQ(std::count(sent.begin(), sent.end(), "067#01000000"), 61 + 20);
+}
+
 TEST_F(OdriveDriveTest, EntersClosedLoopThenCommandsSpeed) {
   make_ready(1);
   EXPECT_EQ(send(0.5, true),
@@ -187,7 +205,7 @@ TEST_F(OdriveDriveTest, AnErrorWhileEnabledTripsUntilEnableIsTakenAway) {
   EXPECT_EQ(health().trouble_code, 0x20u);
   const Texts sent = run(100, true, {heartbeat(3, "20000000", 1), estimates(3)});
   EXPECT_TRUE(sent.empty());
-  run(1, false, {});
+  run(2, false, {heartbeat(3, "20000000", 1)});
   EXPECT_TRUE(health().any_fault);  // the error is still there
   sut_->reset_faults(at_ms(ms_));
   EXPECT_EQ(send(0, false), (Texts{"078#"}));

@@ -139,6 +139,17 @@ TEST_F(VescDriveTest, StopsAreSaidForNoShorterThanAnAbsenceGoesUnseen) {
   EXPECT_EQ(stops_in(400, {}), 400);
 }
 
+// A bus that refuses one must not delay it by a period.
+TEST_F(VescDriveTest, ALongerCommandPeriodIsNotThatOfStops) {
+  DriveConfig config = with_motors(1);
+  config.command_period_s = 0.1;
+  make(config);
+  hear({kStatus});
+  EXPECT_EQ(send({1}, true).size(), 1u);
+  EXPECT_EQ(send({1}, true).size(), 0u);
+  EXPECT_EQ(stops_in(40, {kStatus}), 40);
+}
+
 TEST_F(VescDriveTest, StopsByTheBrakeWhereTheConfigSaysSo) {
   DriveConfig config = with_motors(1);
   config.vesc.stop = "brake";
