@@ -79,7 +79,8 @@ run_scenario() {  # NAME SEED RESULTS
   disk "$files" "$results/disk.ext4"
   rm -r "$files"
   [ -e "$cache/ready.stamp" ] || return 1
-  boot "$cache/ready.ext4" off "$results/disk.ext4" "$seed" "$results/console" "${HOST_LIMIT_S:-1200}" || return 1
+  boot "$cache/ready.ext4" off "$results/disk.ext4" "$seed" "$results/console" \
+    "$([ -n "$shell" ] && echo 0 || echo "${HOST_LIMIT_S:-1200}")" || return 1
   debugfs -R "rdump /out $results" "$results/disk.ext4" 2>/dev/null
   mv "$results"/out/* "$results"
   rmdir "$results/out"

@@ -103,6 +103,7 @@ figures() {  # WHEN
 # ---- the end ----------------------------------------------------------------------------------------
 finish() {  # CODE
   set +e
+  [ -z "$LIMIT" ] || kill "$LIMIT"  # a shell may last
   echo "$1" >$OUT/rc
   figures end
   [ ! -e $OUT/world/result.json ] || flatten <$OUT/world/result.json >$OUT/result
