@@ -199,6 +199,7 @@ int DroneCanEscDrive::send(std::span<const DriveSetpoint> setpoints, bool enable
   const bool is_change = !has_started_ || enable != is_enabled_;
   has_started_ = true;
   is_enabled_ = enable;
+  watch_.set_enabled(enable);
   if (is_change) {
     changed_ = now;
     command_timer_.was_set = arming_timer_.was_set = false;
@@ -222,7 +223,8 @@ int DroneCanEscDrive::send_commands(std::span<const DriveSetpoint> setpoints, bo
   for (std::size_t i = 0; i < motors_.size(); ++i) {
     std::int16_t& command = command_.commands[motors_[i].index];
     command = range_.stop;
-    if (!enable) continue;
+    const bool trips = watch_.has_tripped(static_cast<std::uint8_t>(motors_[i].node_id));
+    if (!enable || trips) continue;
     if (i >= setpoints.size() || std::isnan(setpoints[i].value)) {
       ++counters_.bad_setpoints;
       continue;
@@ -296,7 +298,9 @@ DriveGroupHealth DroneCanEscDrive::health(TimePoint now) const {
     const bool alive = is_alive(i, now), faulty = watch_.is_faulty(node);
     health.all_alive = health.all_alive && alive;
     health.any_fault = health.any_fault || faulty;
-    if (health.first_bad < 0 && (!alive || faulty)) health.first_bad = i;
+    if (health.first_bad >= 0 || (alive && !faulty)) continue;
+    health.first_bad = i;
+    if (watch_.has_tripped(node)) health.trouble = "its node restarted while enabled";
   }
   return health;
 }

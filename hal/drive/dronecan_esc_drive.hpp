@@ -7,6 +7,8 @@
 // node and answered. In: esc.Status, NodeStatus, GetNodeInfo, and the Allocation requests of nodes
 // that have no id: these are counted and shown, never granted.
 //
+// A node that restarts while enabled is faulty, and its motors are told to stop, until enable has
+// been taken away.
 // A motor is alive when its node's heartbeat and, where it has feedback, its status are fresh.
 // In feedback a value that the ESC does not know is NaN. Servo thread; RT safe after creation.
 #pragma once

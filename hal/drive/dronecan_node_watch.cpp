@@ -24,6 +24,7 @@ void NodeWatch::hear(std::uint8_t source, const NodeStatus& status, TimePoint ti
     if (node.id != source) continue;
     if (node.was_heard && status.uptime_s < node.status.uptime_s) {
       ++node.restarts;
+      node.has_tripped = node.has_tripped || is_enabled_;
       node.has_info = false;  // it may be another device, or other software
       asking_[i] = {};
     }
@@ -41,6 +42,12 @@ void NodeWatch::hear(std::uint8_t source, const NodeInfo& info) {
   }
 }
 
+void NodeWatch::set_enabled(bool enabled) {
+  is_enabled_ = enabled;
+  if (enabled) return;
+  for (WatchedNode& node : nodes_) node.has_tripped = false;
+}
+
 bool NodeWatch::is_alive(std::uint8_t id, TimePoint now) const {
   const WatchedNode* node = find(id);
   return node != nullptr && node->was_heard && now - node->last_heard <= timeout_ &&
@@ -53,11 +60,17 @@ bool NodeWatch::is_faulty(std::uint8_t id) const {
   // Initialization is no fault: the node reports no feedback yet and is waited for.
   const bool is_working = node->status.mode == NodeStatus::kOperational ||
                           node->status.mode == NodeStatus::kInitialization;
-  return node->status.health >= NodeStatus::kError || !is_working;
+  return node->status.health >= NodeStatus::kError || !is_working || node->has_tripped;
+}
+
+bool NodeWatch::has_tripped(std::uint8_t id) const {
+  const WatchedNode* node = find(id);
+  return node != nullptr && node->has_tripped;
 }
 
 std::uint16_t NodeWatch::fault_code(std::uint8_t id) const {
   if (!is_faulty(id)) return 0;
+  if (has_tripped(id)) return kRestarted;
   const std::uint16_t code = find(id)->status.vendor_status;
   return code != 0 ? code : kNoVendorStatus;
 }

@@ -16,6 +16,7 @@ struct WatchedNode {
   TimePoint last_heard = {};
   NodeStatus status;
   std::uint32_t restarts = 0;  // its uptime went back
+  bool has_tripped = false;    // it did so while enabled
   bool has_info = false;
   NodeInfo info;
 };
@@ -29,13 +30,20 @@ class NodeWatch {
   void hear(std::uint8_t source, const NodeStatus& status, TimePoint time);
   void hear(std::uint8_t source, const NodeInfo& info);
 
+  // Whether the motors are enabled. A node that restarts while they are is faulty until they are
+  // not: it lost what it was told, and must not go on by itself.
+  void set_enabled(bool enabled);
+
   // It is heard, and does not say that it goes offline.
   bool is_alive(std::uint8_t id, TimePoint now) const;
-  // It says that it is broken, or does something else than its work (maintenance, an update).
+  // It says that it is broken, or does something else than its work (maintenance, an update), or
+  // it has tripped.
   bool is_faulty(std::uint8_t id) const;
-  // The vendor's status of a faulty node, kNoVendorStatus where it gives none; 0 of a good one.
+  bool has_tripped(std::uint8_t id) const;
+  // The vendor's status of a faulty node, kNoVendorStatus where it gives none, kRestarted of one
+  // that has tripped; 0 of a good one.
   std::uint16_t fault_code(std::uint8_t id) const;
-  static constexpr std::uint16_t kNoVendorStatus = 0xFFFF;
+  static constexpr std::uint16_t kNoVendorStatus = 0xFFFF, kRestarted = 0xFFFE;
 
   // The next node that shall be asked for its info, 0: none now. An unanswered one is asked again
   // after a second, three times; then every ten seconds.
@@ -53,6 +61,7 @@ class NodeWatch {
   std::vector<WatchedNode> nodes_;
   std::vector<Asking> asking_;
   Duration timeout_;
+  bool is_enabled_ = false;
 };
 
 }  // namespace gannet::hal::dronecan

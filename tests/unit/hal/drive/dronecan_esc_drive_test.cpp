@@ -263,6 +263,31 @@ TEST_F(DroneCanEscDriveTest, StatesFollowEnableLifeAndFaults) {
   EXPECT_EQ(sut_->feedback()[0].fault_code, 0);
 }
 
+// Its ESC must not go on by itself with what is commanded then.
+TEST_F(DroneCanEscDriveTest, ANodeThatRestartsWhileEnabledIsFaultyUntilEnableIsTakenAway) {
+  make(with_motors(2));
+  hear_well(2, at_ms(0));
+  hear(NodeStatus{.uptime_s = 100}, 22, at_ms(1));
+  hear(NodeStatus{.uptime_s = 1}, 22, at_ms(2));  // not enabled: as good as any start
+  send({}, false, at_ms(3));
+  EXPECT_FALSE(sut_->health(at_ms(3)).any_fault);
+  send({1, 1}, true, at_ms(5));
+  hear(NodeStatus{.uptime_s = 0}, 22, at_ms(6));
+  send({1, 1}, true, at_ms(10));
+  hear(NodeStatus{.uptime_s = 1}, 22, at_ms(11));
+  send({1, 1}, true, at_ms(15));
+  const DriveGroupHealth health = sut_->health(at_ms(15));
+  EXPECT_TRUE(health.any_fault);
+  EXPECT_EQ(health.first_bad, 1);
+  EXPECT_STREQ(health.trouble, "its node restarted while enabled");
+  EXPECT_EQ(sut_->feedback()[1].state, DriveState::kFault);
+  EXPECT_EQ(sut_->feedback()[1].fault_code, NodeWatch::kRestarted);
+  EXPECT_EQ(commands({1, 1}, true, at_ms(20)), (std::vector<int>{8191, 0}));
+  send({}, false, at_ms(25));
+  EXPECT_FALSE(sut_->health(at_ms(25)).any_fault);
+  EXPECT_EQ(commands({1, 1}, true, at_ms(30)), (std::vector<int>{8191, 8191}));
+}
+
 TEST_F(DroneCanEscDriveTest, ANodeThatSaysOfflineIsNotAlive) {
   make(with_motors(1));
   hear_well(1, at_ms(0));
