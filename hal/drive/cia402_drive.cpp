@@ -14,6 +14,8 @@ using cia402::Cia402Axis;
 
 namespace {
 
+constexpr Duration kConflictTime = std::chrono::seconds(2);  // beyond any heartbeat's period
+
 void tell_trouble(const Cia402Axis& axis, DriveGroupHealth& health) {
   const cia402::Refusal& refusal = axis.refusal();
   if (axis.is_faulty()) {
@@ -114,6 +116,7 @@ std::vector<CanFilter> Cia402Drive::wanted_frames(const DriveConfig& config) {
       add(canopen::tpdo_base(position_pdo(config.cia402)), motor.node_id);
   }
   add(kHeartbeatBase, config.own_node_id);
+  add(canopen::sync_frame().id, 0);
   return filters;
 }
 
@@ -122,8 +125,10 @@ std::vector<CanFilter> Cia402Drive::wanted_frames(const DriveConfig& config) {
 void Cia402Drive::receive(const CanFrame& frame, TimePoint time) {
   if (frame.extended || frame.error || frame.id > kMaxStandardId) return;
   const std::uint32_t node = frame.id & 0x7F, base = frame.id & 0x780;
-  if (base == kHeartbeatBase && static_cast<int>(node) == own_id_) {
+  const bool is_sync = frame.id == canopen::sync_frame().id;
+  if (is_sync || (base == kHeartbeatBase && static_cast<int>(node) == own_id_)) {
     ++counters_.own_id_conflicts;
+    conflict_ = time;
     return;
   }
   const int axis = axis_of_[node];
@@ -179,8 +184,19 @@ void Cia402Drive::reset_faults(TimePoint now) {
 
 // ---- health -------------------------------------------------------------------------------------
 
+bool Cia402Drive::is_in_conflict(TimePoint now) const {
+  return counters_.own_id_conflicts > 0 && now - conflict_ <= kConflictTime;
+}
+
 DriveGroupHealth Cia402Drive::health(TimePoint now) const {
   DriveGroupHealth health = {.all_alive = true};
+  if (is_in_conflict(now)) {
+    health.any_fault = true;
+    health.guards_itself = false;
+    health.first_bad = 0;
+    health.trouble = "another master on the bus speaks as we do";
+    health.trouble_code = static_cast<std::uint32_t>(own_id_);
+  }
   for (int i = 0; i < size(); ++i) {
     const Cia402Axis& axis = axes_[static_cast<std::size_t>(i)];
     const bool alive = axis.is_alive(now), faulty = axis.is_faulty(), ready = axis.is_ready(now);

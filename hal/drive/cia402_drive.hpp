@@ -9,7 +9,9 @@
 //
 // A drive is set up when it appears, and again when it restarts. One that restarts, falls silent,
 // faults or disables itself while enabled is a fault of the group, until enable has been taken
-// away; see cia402_axis.hpp. Servo thread; RT safe after creation.
+// away; see cia402_axis.hpp. So is another master that sends SYNC or heartbeats under our
+// node id, until 2 s after the last: the drives would not miss us. Servo thread; RT safe after
+// creation.
 #pragma once
 
 #include <array>
@@ -24,7 +26,7 @@
 namespace gannet::hal {
 
 struct Cia402Counters {
-  std::uint64_t own_id_conflicts = 0;  // heartbeats of somebody else under our node id
+  std::uint64_t own_id_conflicts = 0;  // heartbeats under our node id, or SYNC, of somebody else
   std::uint64_t bad_setpoints = 0;     // NaN, or none for a motor, while enabled
 };
 
@@ -52,6 +54,7 @@ class Cia402Drive final : public DriveGroup {
 
  private:
   explicit Cia402Drive(const DriveConfig& config);
+  bool is_in_conflict(TimePoint now) const;
   bool hear(cia402::Cia402Axis& axis, std::uint32_t base, const CanFrame& frame, TimePoint time);
 
   const Cia402Config config_;
@@ -61,6 +64,7 @@ class Cia402Drive final : public DriveGroup {
   std::vector<DriveFeedback> feedback_;
   TimePoint next_heartbeat_ = {};
   bool has_started_ = false;
+  TimePoint conflict_ = {};  // the last
   Cia402Counters counters_;
   std::uint64_t malformed_ = 0;
 };

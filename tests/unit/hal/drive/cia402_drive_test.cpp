@@ -226,6 +226,25 @@ TEST_F(Cia402DriveTest, CountsWhatIsTooShortAndIgnoresWhatIsNotItsOwn) {
   EXPECT_EQ(sut_->counters().own_id_conflicts, 1u);
 }
 
+// Its heartbeats would keep the drives content after we have died.
+TEST_F(Cia402DriveTest, AnotherMasterWithOurNodeIdIsAFaultUntilItHasBeenGoneForAWhile) {
+  for (const char* word : {"70A#05", "080#", "080#01"}) {
+    start();
+    send(false);
+    ASSERT_FALSE(sut_->health(now_).any_fault);
+    hear(word);
+    const TimePoint heard = now_;
+    const DriveGroupHealth health = sut_->health(heard + milliseconds(2000));
+    EXPECT_TRUE(health.any_fault);
+    EXPECT_FALSE(health.guards_itself);
+    EXPECT_EQ(health.first_bad, 0);
+    EXPECT_STREQ(health.trouble, "another master on the bus speaks as we do");
+    EXPECT_EQ(health.trouble_code, 10u);
+    EXPECT_EQ(sut_->counters().own_id_conflicts, 1u);
+    EXPECT_FALSE(sut_->health(heard + milliseconds(2001)).any_fault);
+  }
+}
+
 TEST_F(Cia402DriveTest, KeepsTheFaultCodeOfTheEmergencyAndItsWords) {
   start();
   hear("095#1186200200000000");
@@ -286,11 +305,10 @@ TEST_F(Cia402DriveTest, WantsTheFramesOfItsNodesAlone) {
     return std::any_of(filters.begin(), filters.end(),
                        [&](const CanFilter& f) { return f.matches(frame); });
   };
-  for (const char* text : {"095#00", "195#00", "595#00", "715#00", "70A#05"}) {
+  for (const char* text : {"095#00", "195#00", "595#00", "715#00", "70A#05", "080#"}) {
     EXPECT_TRUE(wants(text)) << text;
   }
-  for (const char* text :
-       {"000#0100", "080#", "215#00", "295#00", "615#00", "196#00", "00000195#"}) {
+  for (const char* text : {"000#0100", "215#00", "295#00", "615#00", "196#00", "00000195#"}) {
     EXPECT_FALSE(wants(text)) << text;
   }
 }
