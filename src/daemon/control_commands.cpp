@@ -57,7 +57,11 @@ const char* advice(Cause cause) {
     case Cause::kOverruns:
       return "the servo loop misses its periods";
     case Cause::kLimits:
-      return "a limit of the vehicle is exceeded";
+      return "a motor is hotter than safety.motor_temperature_c or draws more than "
+             "safety.motor_current_a: let it cool, free its propeller";
+    case Cause::kNoEstop:
+      return "there is no emergency stop: configure gpio.estop, or set safety.accept_no_estop = "
+             "true";
     case Cause::kNotStarted:
       return "the daemon is still starting";
     case Cause::kNotReset:
@@ -359,6 +363,7 @@ Answer ControlCommands::manual(const Json& params) {
   }
   ServoCommand command;
   command.by_hand = true;
+  command.time = setting_.now();
   command.velocity = {{(*linear)[0], (*linear)[1], (*linear)[2]},
                       {(*angular)[0], (*angular)[1], (*angular)[2]}};
   if (!push(command)) return Failure{ErrorCode::kBusy, "too many commands wait"};

@@ -46,6 +46,7 @@ struct ServoCommand {
   safety::Request request = safety::Request::kNone;
   bool by_hand = false;
   Twist<Body> velocity;
+  TimePoint time = {};       // by hand: when it arrived at the control thread, by the loops' clock
   std::uint64_t number = 0;  // running; the report says the newest one that was served
 };
 

@@ -59,6 +59,7 @@ ServoLoop::ServoLoop(const Links& links, const StereoRig& rig, const safety::Saf
       filter_(filter),
       overrun_watch_(safety.overrun_limit, from_seconds(safety.overrun_window_s)),
       bus_watch_(from_seconds(safety.bus_age_s)),
+      limit_watch_(from_seconds(safety.motor_limit_s)),
       estop_input_(safety),
       goal_(servo::goal_of(params)),
       setpoints_(static_cast<std::size_t>(links.vehicle->motors())),
@@ -142,7 +143,7 @@ void ServoLoop::receive_commands(TimePoint now) {
     request_ = command.request;
     if (!command.by_hand) continue;
     hand_ = command.velocity;
-    hand_time_ = now;
+    hand_time_ = std::min(command.time, now);  // it may have come during this cycle
     report_.by_hand_active = true;
   }
   if (request_ == safety::Request::kDisarm || request_ == safety::Request::kStop) {
@@ -205,6 +206,7 @@ safety::Inputs ServoLoop::inputs_at(TimePoint now) {
   inputs.started = facts.capture_cycles.load(std::memory_order_relaxed) > 0 &&
                    facts.vision_cycles.load(std::memory_order_relaxed) > 0;
   inputs.estop = report_.estop;
+  inputs.has_estop = links_.estop != nullptr;
   inputs.request = request_;
   inputs.has_vehicle = links_.vehicle->motors() > 0;
   inputs.internal_fault = internal_fault_;
@@ -216,6 +218,7 @@ safety::Inputs ServoLoop::inputs_at(TimePoint now) {
   inputs.bus_ok =
       links_.bus == nullptr || (report_.bus != hal::BusState::kDown &&
                                 report_.bus != hal::BusState::kOff && bus_watch_.fresh(now));
+  inputs.limits_exceeded = limit_watch_.exceeded(is_over_limits(), now);
   inputs.overruns = overrun_watch_.exceeded(now);
   const std::int64_t last_frame = facts.last_frame_ns.load(std::memory_order_relaxed);
   inputs.camera_alive =
@@ -227,6 +230,18 @@ safety::Inputs ServoLoop::inputs_at(TimePoint now) {
   inputs.estimate_age = report_.target.age;
   inputs.estimate_sigma_m = largest_sigma(report_.target.covariance);
   return inputs;
+}
+
+// What a drive does not tell is 0 and exceeds nothing.
+bool ServoLoop::is_over_limits() const {
+  if (links_.drives == nullptr) return false;
+  constexpr double kZeroCelsius_k = 273.15;
+  const double hottest_k = safety_.motor_temperature_c + kZeroCelsius_k;
+  const auto felt = links_.drives->feedback();
+  return std::any_of(felt.begin(), felt.end(), [&](const hal::DriveFeedback& motor) {
+    return (safety_.motor_temperature_c > 0 && motor.temperature_k > hottest_k) ||
+           (safety_.motor_current_a > 0 && std::abs(motor.current_a) > safety_.motor_current_a);
+  });
 }
 
 void ServoLoop::steer(TimePoint now) {

@@ -55,6 +55,7 @@ class ServoLoop {
   void read_targets(TimePoint now);
   void supervise(TimePoint now, std::int64_t missed);
   safety::Inputs inputs_at(TimePoint now);
+  bool is_over_limits() const;
   void steer(TimePoint now);
   void note_own_motion(TimePoint now);
   void send(bool enable, TimePoint now);
@@ -72,6 +73,7 @@ class ServoLoop {
   track::PoseFilter filter_;
   safety::OverrunWatch overrun_watch_;
   safety::AgeWatch bus_watch_;
+  safety::LimitWatch limit_watch_;
   safety::EstopInput estop_input_;
 
   servo::Goal goal_;

@@ -124,6 +124,7 @@ int Daemon::run(int signal_fd) {
     log(Severity::kWarning, note);
     reports_.add_event(make_event(telemetry::kRightsMissing, clock_->now()));
   }
+  warn_of_no_estop();
   reports_.add_event(make_event(telemetry::kStarted, clock_->now()));
   linux_os::sd_notify("READY=1");
   while (wait_and_serve(signal_fd)) feed_watchdog();
@@ -132,6 +133,17 @@ int Daemon::run(int signal_fd) {
   stop();
   reports_.refresh();
   return kExitStopped;
+}
+
+void Daemon::warn_of_no_estop() const {
+  const config::DaemonConfig& config = loaded_.config;
+  if (config.vehicle.kind == "none" || config.gpio.estop.kind != "none") return;
+  log(Severity::kWarning,
+      config.safety.accept_no_estop
+          ? "safety.accept_no_estop: this vehicle has no emergency stop line; nothing but the "
+            "programs can stop it"
+          : "gpio.estop.kind is \"none\": arming will be refused; configure the emergency stop, or "
+            "set safety.accept_no_estop = true");
 }
 
 Result<void> Daemon::start_threads() {

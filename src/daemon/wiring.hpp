@@ -52,6 +52,7 @@ class Daemon {
   void make_loops();
   void make_commands();
   Result<void> start_threads();
+  void warn_of_no_estop() const;
   void run_capture();
   void run_vision();
   void run_servo();

@@ -21,11 +21,6 @@ void describe(Visitor& v, SafetyConfig& c) {
            .max = 5,
            .unit = "s",
            .help = "Oldest command of a person's hand that still counts."});
-  v.field("drive_feedback_s", c.drive_feedback_s,
-          {.min = 0.02,
-           .max = 10,
-           .unit = "s",
-           .help = "A drive that was not heard for longer counts as silent."});
   v.field("camera_age_s", c.camera_age_s,
           {.min = 0.05,
            .max = 10,
@@ -48,6 +43,25 @@ void describe(Visitor& v, SafetyConfig& c) {
            .unit = "s",
            .help = "The two channels of an e-stop may disagree for so long, while the button "
                    "moves."});
+  v.field("accept_no_estop", c.accept_no_estop,
+          {.help = "Arm a vehicle although gpio.estop.kind is \"none\": nothing but the programs "
+                   "could stop it."});
+  v.field("motor_temperature_c", c.motor_temperature_c,
+          {.min = 0,
+           .max = 300,
+           .unit = "°C",
+           .help = "A motor whose drive tells more exceeds its limit; 0: not watched."});
+  v.field("motor_current_a", c.motor_current_a,
+          {.min = 0,
+           .max = 2000,
+           .unit = "A",
+           .help = "A motor whose drive tells more, forward or back, exceeds its limit; 0: not "
+                   "watched."});
+  v.field("motor_limit_s", c.motor_limit_s,
+          {.min = 0,
+           .max = 60,
+           .unit = "s",
+           .help = "A motor's limit that is exceeded for longer is a fault."});
   v.field("overrun_limit", c.overrun_limit,
           {.min = 1,
            .max = 100000,

@@ -25,7 +25,8 @@ constexpr std::array<const char*, kCauses> kCauseNames = {"none",
                                                           "hold_expired",
                                                           "disarmed",
                                                           "drives_not_ready",
-                                                          "drives_unguarded"};
+                                                          "drives_unguarded",
+                                                          "no_estop"};
 
 // What this cycle's inputs say, most urgent first: of all that are true, the first one that the
 // present state reacts to is taken, one transition a cycle.
@@ -111,6 +112,7 @@ Cause arming_obstacle(const SafetyConfig& config, State state, const Inputs& in)
   // Also in Standby, which a reset reaches from a Stopped that came before every loop had run.
   if (state == A || !in.started) cause = first(cause, Cause::kNotStarted);
   if (!in.has_vehicle) cause = first(cause, Cause::kNoVehicle);
+  if (!in.has_estop && !config.accept_no_estop) cause = first(cause, Cause::kNoEstop);
   cause = first(cause, fault_cause(in));
   if (!in.drives_ready) cause = first(cause, Cause::kDrivesNotReady);
   if (!in.drives_guarded) cause = first(cause, Cause::kDrivesUnguarded);

@@ -42,7 +42,7 @@ enum class Cause : std::uint8_t {
   kDrivesSilent,   // a drive was not heard within its time
   kBusDown,
   kOverruns,         // too many missed periods
-  kLimits,           // a limit of the vehicle was exceeded
+  kLimits,           // a motor was too hot, or drew too much, for too long
   kNotStarted,       // arm: still starting
   kNotReset,         // arm: stopped or faulted, a reset is needed first
   kNoVehicle,        // arm: vehicle.kind is "none"
@@ -54,8 +54,9 @@ enum class Cause : std::uint8_t {
   kDisarmed,         // a person asked for it
   kDrivesNotReady,   // arm: a drive is not set up yet, or refused it
   kDrivesUnguarded,  // arm: a drive would run on when we fall silent
+  kNoEstop,          // arm: there is no e-stop line, and the config does not accept that
 };
-inline constexpr int kCauses = 21;
+inline constexpr int kCauses = 22;
 
 enum class Light : std::uint8_t { kOff, kSlow, kOn, kFast };  // blinking 1 Hz, 5 Hz
 
@@ -68,6 +69,7 @@ const char* to_string(Light light);
 struct Inputs {
   bool started = false;  // every device is open, every loop has run
   Line estop = Line::kUnknown;
+  bool has_estop = false;            // there is a line; bars arming only
   Request request = Request::kNone;  // of this cycle only
   bool has_vehicle = false;          // vehicle.kind is not "none"
   bool internal_fault = false;
@@ -76,8 +78,8 @@ struct Inputs {
   bool drives_ready = false;    // set up; bars arming only
   bool drives_guarded = false;  // stop by themselves when we fall silent; bars arming only
   bool bus_ok = false;
-  bool overruns = false;  // OverrunWatch says too many
-  bool limits_exceeded = false;
+  bool overruns = false;         // OverrunWatch says too many
+  bool limits_exceeded = false;  // LimitWatch says for too long
   bool camera_alive = false;
   bool manual_active = false;                 // a person's hand commands a velocity …
   Duration manual_age = {};                   // … this long ago

@@ -27,6 +27,12 @@ void OverrunWatch::advance(TimePoint now) {
   newest_part_ = std::max(part, newest_part_);
 }
 
+bool LimitWatch::exceeded(bool over, TimePoint now) {
+  if (over && !over_) since_ = now;
+  over_ = over;
+  return over_ && now - since_ > patience_;
+}
+
 void OverrunWatch::note(int missed, TimePoint now) {
   advance(now);
   counts_[newest_part_ % kParts] += missed;

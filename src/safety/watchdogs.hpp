@@ -27,6 +27,19 @@ class AgeWatch {
   std::uint64_t lapses_ = 0;
 };
 
+// A limit that may be exceeded for a short while: a motor that starts, a reading that is wrong.
+class LimitWatch {
+ public:
+  explicit LimitWatch(Duration patience) : patience_(patience) {}
+
+  bool exceeded(bool over, TimePoint now);  // once a cycle; over without a gap for longer
+
+ private:
+  Duration patience_;
+  bool over_ = false;
+  TimePoint since_ = {};
+};
+
 // Missed periods within a window. The window is kept in ten parts, so it is exact to a tenth.
 class OverrunWatch {
  public:

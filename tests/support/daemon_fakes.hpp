@@ -135,7 +135,7 @@ class FakeDrives final : public hal::DriveGroup {
     return 1;
   }
   int max_frames() const override { return 1; }
-  std::span<const hal::DriveFeedback> feedback() const override { return {}; }
+  std::span<const hal::DriveFeedback> feedback() const override { return felt; }
   hal::DriveGroupHealth health(TimePoint) const override { return says; }
   std::uint64_t malformed() const override { return 0; }
   void reset_faults(TimePoint) override { ++resets; }
@@ -148,6 +148,7 @@ class FakeDrives final : public hal::DriveGroup {
 
   hal::DriveGroupHealth says = {.all_alive = true};
   std::vector<hal::DriveSetpoint> last;
+  std::vector<hal::DriveFeedback> felt;
   bool enabled = false;
   int resets = 0;
 };

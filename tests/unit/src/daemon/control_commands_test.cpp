@@ -192,6 +192,7 @@ TEST_F(ControlCommandsTest, the_hand_needs_a_vehicle_and_whole_vectors) {
   ASSERT_TRUE(lines_.to_servo.pop(command));
   EXPECT_TRUE(command.by_hand);
   EXPECT_EQ(command.velocity.angular.z(), 0.1);
+  EXPECT_EQ(command.time, time_from_ns(2'000'000'000));  // of its arrival
   EXPECT_EQ(failure("manual", {{"linear_m_s", {0.2, 0, 0}}}).code, ErrorCode::kBadParams);
   EXPECT_EQ(failure("manual", {{"linear_m_s", {9, 0, 0}}, {"angular_rad_s", {0, 0, 0}}}).code,
             ErrorCode::kBadParams);

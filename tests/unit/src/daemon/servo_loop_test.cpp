@@ -54,9 +54,10 @@ class ServoLoopTest : public testing::Test {
     const bool has_motors = vehicle->motors() > 0;
     sut_ = std::make_unique<ServoLoop>(
         ServoLoop::Links{vehicle, law_.get(), has_motors ? &bus_ : nullptr,
-                         has_motors ? &drives_ : nullptr, &estop_, &light_, &targets_, &commands_,
-                         &params_, &report_, &events_, &facts_, estop_second},
-        rig(), safety::SafetyConfig{}, track::FilterConfig{}, servo::ServoParams{}, kPeriod);
+                         has_motors ? &drives_ : nullptr, has_estop_ ? &estop_ : nullptr, &light_,
+                         &targets_, &commands_, &params_, &report_, &events_, &facts_,
+                         estop_second},
+        rig(), safety_, track::FilterConfig{}, servo::ServoParams{}, kPeriod);
   }
   const ServoReport& step(int cycles = 1) {
     for (int i = 0; i < cycles; ++i) {
@@ -86,10 +87,11 @@ class ServoLoopTest : public testing::Test {
     step();
     EXPECT_EQ(report_.read().served, asked_);
   }
-  void push_hand(double forward_m_s) {
+  void push_hand(double forward_m_s, Duration after = {}) {
     ServoCommand command;
     command.by_hand = true;
     command.velocity.linear.x() = forward_m_s;
+    command.time = now_ + after;
     command.number = ++asked_;
     commands_.push(command);
   }
@@ -107,6 +109,8 @@ class ServoLoopTest : public testing::Test {
   test::FakeBus bus_;
   test::FakeDrives drives_{6};
   test::FakeInput estop_;
+  bool has_estop_ = true;
+  safety::SafetyConfig safety_;
   test::FakeOutput light_;
   std::unique_ptr<vehicle::Vehicle> vehicle_;
   std::unique_ptr<servo::ServoLaw> law_;
@@ -268,6 +272,49 @@ TEST_F(ServoLoopTest, faults_when_a_drive_is_silent_or_the_bus_is_down) {
   EXPECT_EQ(report_.read().outputs.obstacle, Cause::kBusDown);
 }
 
+TEST_F(ServoLoopTest, a_motor_that_is_too_hot_or_draws_too_much_for_long_is_a_fault) {
+  safety_.motor_temperature_c = 80;
+  safety_.motor_current_a = 20;
+  hal::DriveFeedback hot, drawing;
+  hot.temperature_k = 273.15 + 81;
+  drawing.current_a = -21;
+  for (const hal::DriveFeedback& bad : {hot, drawing}) {
+    make(vehicle_.get());
+    drives_.felt.assign(6, {});
+    start_servoing();
+    drives_.felt[2] = bad;
+    step(198);  // 990 ms
+    EXPECT_NE(state(), State::kFaulted);
+    step(6);
+    EXPECT_EQ(state(), State::kFaulted);
+    EXPECT_EQ(report_.read().supervisor.cause, Cause::kLimits);
+    EXPECT_FALSE(drives_.enabled);
+  }
+}
+
+TEST_F(ServoLoopTest, motors_without_limits_in_the_config_are_not_watched) {
+  start_servoing();
+  drives_.felt.assign(6, {});
+  drives_.felt[2].temperature_k = 500;
+  drives_.felt[2].current_a = 500;
+  step(300);
+  EXPECT_NE(state(), State::kFaulted);
+}
+
+TEST_F(ServoLoopTest, without_an_estop_it_arms_only_where_the_config_accepts_that) {
+  has_estop_ = false;
+  make(vehicle_.get());
+  step(2);
+  ask(Request::kArm);
+  EXPECT_EQ(state(), State::kStandby);
+  EXPECT_EQ(report_.read().refused, Cause::kNoEstop);
+  safety_.accept_no_estop = true;
+  make(vehicle_.get());
+  step(2);
+  ask(Request::kArm);
+  EXPECT_EQ(state(), State::kArmed);
+}
+
 TEST_F(ServoLoopTest, a_person_steers_by_hand_until_the_time_out) {
   step(2);
   ask(Request::kArm);
@@ -280,6 +327,27 @@ TEST_F(ServoLoopTest, a_person_steers_by_hand_until_the_time_out) {
   step(62);  // 310 ms of silence
   EXPECT_FALSE(report_.read().outputs.by_hand);
   EXPECT_NE(state(), State::kServoing);
+}
+
+TEST_F(ServoLoopTest, a_hand_command_is_as_old_as_its_arrival_not_as_its_reading) {
+  start_servoing();
+  push_hand(0.3);
+  now_ += milliseconds(280);  // it waited: a loop that hung
+  step();
+  EXPECT_TRUE(report_.read().outputs.by_hand);
+  step(4);  // 305 ms after its arrival
+  EXPECT_FALSE(report_.read().outputs.by_hand);
+  push_hand(0.3);
+  now_ += milliseconds(400);
+  step();
+  EXPECT_FALSE(report_.read().outputs.by_hand);
+}
+
+TEST_F(ServoLoopTest, a_hand_command_that_came_during_the_cycle_is_not_from_the_future) {
+  start_servoing();
+  push_hand(0.3, kPeriod + milliseconds(1));  // stamped after this cycle's time was taken
+  step();
+  EXPECT_TRUE(report_.read().outputs.by_hand);
 }
 
 TEST_F(ServoLoopTest, the_hand_moves_nothing_without_permit) {

@@ -20,6 +20,7 @@ Inputs quiet() {
   in.started = true;
   in.estop = Line::kInactive;
   in.has_vehicle = true;
+  in.has_estop = true;
   in.drive_fault = false;
   in.drives_alive = true;
   in.drives_ready = true;
@@ -179,6 +180,12 @@ const Row kRows[] = {
      [](Inputs& in) {
        in.request = Request::kArm;
        in.drives_guarded = false;
+     },
+     "BBCEESF", Cause::kTargetNone},
+    {"arm, no e-stop line",
+     [](Inputs& in) {
+       in.request = Request::kArm;
+       in.has_estop = false;
      },
      "BBCEESF", Cause::kTargetNone},
     {"arm, bus down",
@@ -344,6 +351,7 @@ TEST(Supervisor, says_why_it_refuses) {
       {[](Inputs& in) { in.estop = Line::kUnknown; }, State::kStandby, Cause::kEstopUnknown},
       {[](Inputs& in) { in.internal_fault = true; }, State::kStandby, Cause::kInternalFault},
       {[](Inputs& in) { in.has_vehicle = false; }, State::kStandby, Cause::kNoVehicle},
+      {[](Inputs& in) { in.has_estop = false; }, State::kStandby, Cause::kNoEstop},
       {[](Inputs& in) { in.drive_fault = true; }, State::kStandby, Cause::kDriveFault},
       {[](Inputs& in) { in.drives_alive = false; }, State::kStandby, Cause::kDrivesSilent},
       {[](Inputs& in) { in.drives_ready = false; }, State::kStandby, Cause::kDrivesNotReady},
@@ -375,6 +383,16 @@ TEST(Supervisor, says_why_it_refuses) {
       EXPECT_NE(sut.memory.state, State::kArmed);
     }
   }
+}
+
+TEST(Supervisor, arms_without_an_estop_where_the_config_accepts_it) {
+  Inputs in = quiet();
+  in.has_estop = false;
+  in.request = Request::kArm;
+  SafetyConfig config;
+  EXPECT_EQ(step(config, in_state(State::kStandby), in, kNow).memory.state, State::kStandby);
+  config.accept_no_estop = true;
+  EXPECT_EQ(step(config, in_state(State::kStandby), in, kNow).memory.state, State::kArmed);
 }
 
 TEST(Supervisor, locks_the_release_unless_the_law_follows_a_target) {
@@ -415,6 +433,7 @@ Inputs anything(Random& random) {
   in.estop = often(40) ? Line::kInactive : random.below(2) ? Line::kActive : Line::kUnknown;
   in.request = static_cast<Request>(random.below(12) < 8 ? 0 : random.below(5));
   in.has_vehicle = often(50);
+  in.has_estop = often(50);
   in.internal_fault = !often(100);
   in.drive_fault = !often(60);
   in.drives_alive = often(60);
@@ -457,7 +476,7 @@ TEST(Supervisor, holds_its_invariants_under_random_inputs) {
       ASSERT_EQ(after, State::kArmed);
       ASSERT_EQ(in.request, Request::kArm);
       ASSERT_TRUE(in.has_vehicle && in.drives_alive && in.bus_ok && !in.drive_fault);
-      ASSERT_TRUE(in.drives_ready && in.drives_guarded);
+      ASSERT_TRUE(in.drives_ready && in.drives_guarded && in.has_estop);
     }
     if (before == State::kStopped && after != before) {
       ASSERT_EQ(in.request, Request::kReset);

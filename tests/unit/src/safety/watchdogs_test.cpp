@@ -65,6 +65,18 @@ TEST(OverrunWatch, counts_what_lies_within_the_window_to_a_tenth_of_it) {
   EXPECT_GT(below, 50);
 }
 
+TEST(LimitWatch, endures_what_is_short_and_counts_from_the_last_gap) {
+  LimitWatch sut(from_seconds(1));
+  EXPECT_FALSE(sut.exceeded(false, at(10)));
+  EXPECT_FALSE(sut.exceeded(true, at(11)));
+  EXPECT_FALSE(sut.exceeded(true, at(12)));
+  EXPECT_FALSE(sut.exceeded(false, at(12.1)));
+  EXPECT_FALSE(sut.exceeded(true, at(12.2)));
+  EXPECT_FALSE(sut.exceeded(true, at(13.1)));
+  EXPECT_TRUE(sut.exceeded(true, at(13.3)));
+  EXPECT_FALSE(sut.exceeded(false, at(13.4)));
+}
+
 TEST(OverrunWatch, forgets_after_the_window_and_keeps_the_total) {
   OverrunWatch sut(5, from_seconds(1));
   sut.note(5, at(10));
