@@ -73,7 +73,10 @@ int run(const Arguments& arguments) {
   if (!loaded) return fail(kExitBadConfig, loaded.error().text);
   auto parts = make_parts(*loaded);
   if (!parts) return fail(kExitBadConfig, parts.error().text);
-  if (arguments.given("check")) return kExitStopped;
+  if (arguments.given("check")) {
+    const auto recording = check_recording(*loaded);
+    return recording ? kExitStopped : fail(kExitBadConfig, recording.error().text);
+  }
   const linux_os::Fd signals = block_signals();
   auto daemon = Daemon::create(std::move(*loaded), std::move(*parts));
   if (!daemon) return fail(kExitDevice, daemon.error().text);

@@ -14,16 +14,26 @@
 namespace gannet::daemon {
 namespace {
 
-Result<std::vector<vision::PatchModel>> load_models(const config::DaemonConfig& config,
+// "gannet.toml:4: models: …", where a file or --set said it.
+Error at_origin(const config::LoadedConfig& loaded, const std::string& key,
+                const std::string& text) {
+  const auto found = loaded.origins.find(key);
+  const std::string where = found == loaded.origins.end() ? "" : found->second.text() + ": ";
+  return Error{where + key + ": " + text};
+}
+
+Result<std::vector<vision::PatchModel>> load_models(const config::LoadedConfig& loaded,
                                                     std::vector<std::string>& names) {
+  const config::DaemonConfig& config = loaded.config;
+  const auto refuse = [&](const std::string& text) { return at_origin(loaded, "models", text); };
   std::vector<vision::PatchModel> models;
   for (const std::string& path : config.models) {
     auto photo = modeldb::load_model(path);
-    if (!photo) return Error{"models: " + photo.error().text};
+    if (!photo) return refuse(photo.error().text);
     auto model = vision::make_patch_model(*photo, {.inside_points = config.track.model_points});
-    if (!model) return Error{"models: " + path + ": " + model.error().text};
+    if (!model) return refuse(path + ": " + model.error().text);
     if (std::find(names.begin(), names.end(), model->name) != names.end()) {
-      return Error{"models: " + path + ": the name \"" + model->name + "\" is there twice"};
+      return refuse(path + ": the name \"" + model->name + "\" is there twice");
     }
     names.push_back(model->name);
     models.push_back(std::move(*model));
@@ -32,6 +42,13 @@ Result<std::vector<vision::PatchModel>> load_models(const config::DaemonConfig& 
 }
 
 Error at_key(const std::string& key, const Error& error) { return Error{key + ": " + error.text}; }
+
+Result<void> check_size(const hal::StereoCamera& camera, const Intrinsics& rig) {
+  if (camera.width() == rig.width && camera.height() == rig.height) return {};
+  return Error{"its images have " + std::to_string(camera.width()) + " × " +
+               std::to_string(camera.height()) + " pixels, the rig says " +
+               std::to_string(rig.width) + " × " + std::to_string(rig.height)};
+}
 
 // on: what the output is from now on.
 Result<void> open_output(const char* key, const hal::LineConfig& config, bool on, TimePoint now,
@@ -64,7 +81,7 @@ Result<void> open_lines(const config::GpioConfig& config, Devices& devices, Time
 Result<Parts> make_parts(const config::LoadedConfig& loaded) {
   const config::DaemonConfig& config = loaded.config;
   Parts parts;
-  auto models = load_models(config, parts.model_names);
+  auto models = load_models(loaded, parts.model_names);
   if (!models) return models.error();
   auto tracker = track::TargetTracker::create(config.track, loaded.rig, std::move(*models));
   if (!tracker) return at_key("track", tracker.error());
@@ -96,6 +113,17 @@ Result<Parts> make_parts(const config::LoadedConfig& loaded) {
   return parts;
 }
 
+Result<void> check_recording(const config::LoadedConfig& loaded) {
+  if (loaded.config.camera.kind != "replay") return {};
+  const char* const key = "camera.replay.directory";
+  auto camera =
+      hal::make_stereo_camera(loaded.config.camera, &image_file::decode_image, hal::Pace::kStepped);
+  if (!camera) return at_origin(loaded, key, camera.error().text);
+  if (auto fits = check_size(**camera, loaded.rig.left); !fits)
+    return at_origin(loaded, key, fits.error().text);
+  return {};
+}
+
 Result<Devices> open_devices(const config::LoadedConfig& loaded, TimePoint now) {
   const config::DaemonConfig& config = loaded.config;
   Devices devices;
@@ -110,12 +138,8 @@ Result<Devices> open_devices(const config::LoadedConfig& loaded, TimePoint now) 
   if (!camera) return at_key("camera", camera.error());
   devices.camera = std::move(*camera);
   if (auto started = devices.camera->start(); !started) return at_key("camera", started.error());
-  const Intrinsics& rig = loaded.rig.left;
-  if (devices.camera->width() != rig.width || devices.camera->height() != rig.height) {
-    return Error{"camera: its images have " + std::to_string(devices.camera->width()) + " × " +
-                 std::to_string(devices.camera->height()) + " pixels, the rig says " +
-                 std::to_string(rig.width) + " × " + std::to_string(rig.height)};
-  }
+  if (auto fits = check_size(*devices.camera, loaded.rig.left); !fits)
+    return at_key("camera", fits.error());
   return devices;
 }
 

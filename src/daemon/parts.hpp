@@ -29,6 +29,10 @@ struct Parts {
 // Error: of the config or of a file that it names.
 Result<Parts> make_parts(const config::LoadedConfig& loaded);
 
+// For --check: a recording that is to be replayed is there, has pairs, and its images fit the rig.
+// Error: with the line that names it.
+Result<void> check_recording(const config::LoadedConfig& loaded);
+
 struct Devices {
   std::unique_ptr<hal::StereoCamera> camera;  // started
   std::unique_ptr<hal::CanBus> bus;           // null without a vehicle

@@ -41,7 +41,11 @@ if [ -x "$bin/gannetd" ]; then
   "$bin/gannetd" --check "$work/etc/gannet.toml" >"$work/out" 2>&1 && pass ||
     fail "the shipped configuration is accepted with one" "$(cat "$work/out")"
   for example in docs/examples/rov*.toml docs/examples/poses*.toml; do
-    "$bin/gannetd" --check "$example" >"$work/out" 2>&1 && pass || fail "$example" "$(cat "$work/out")"
+    # What --check looks for in a recording is in tests/system; an example's own is not shipped.
+    more=()
+    grep -q '^kind = "replay"' "$example" && more=(--set camera.kind=simulated)
+    "$bin/gannetd" --check "$example" "${more[@]}" >"$work/out" 2>&1 && pass ||
+      fail "$example" "$(cat "$work/out")"
   done
 fi
 ending
