@@ -191,7 +191,7 @@ TEST_F(GannetdTest, check_accepts_a_good_config_and_a_missing_model_is_one_of_it
 TEST_F(GannetdTest, check_tells_the_line_of_a_recording_that_is_not_there) {
   std::filesystem::rename(folder_ / "frames", folder_ / "elsewhere");
   EXPECT_EQ(run_to_end({"--check", folder_ / "gannet.toml"}), 2);
-  EXPECT_NE(said().find("gannet.toml:5: camera.replay.directory: "), std::string::npos) << said();
+  EXPECT_NE(said().find("gannet.toml:6: camera.replay.directory: "), std::string::npos) << said();
 }
 
 TEST_F(GannetdTest, a_device_that_is_missing_ends_with_3_and_its_name) {
