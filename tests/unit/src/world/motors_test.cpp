@@ -8,6 +8,7 @@
 #include "hal/can/local_bus.hpp"
 #include "hal/drive/drive_kinds.hpp"
 #include "hal/drive/dronecan_esc_drive.hpp"
+#include "src/world/rov_plant.hpp"
 
 namespace gannet::world {
 namespace {
