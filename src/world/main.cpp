@@ -147,8 +147,22 @@ void keep_files(const RunFiles& files, const std::filesystem::path& folder) {
   }
 }
 
+// Where find_scenario has looked, in its order.
+std::string not_there(const std::string& name, const std::string& path,
+                      const std::string& program) {
+  if (path == name) return "there is no file '" + name + "'";
+  const char* asked = std::getenv("GANNET_SCENARIOS");
+  return "there is no scenario '" + name + "': no " + path + " in " +
+         (asked != nullptr ? std::string(asked) + ", " : "") + "tests/scenarios, " +
+         program.substr(0, program.rfind('/') + 1) +
+         "../share/gannet/scenarios; give its file, or set GANNET_SCENARIOS to its folder";
+}
+
 int run(const Arguments& arguments, const std::string& program) {
-  auto scenario = load_scenario(find_scenario(arguments.text("scenario"), program));
+  const std::string path = find_scenario(arguments.text("scenario"), program);
+  if (std::error_code error; !std::filesystem::exists(path, error))
+    return fail(2, not_there(arguments.text("scenario"), path, program));
+  auto scenario = load_scenario(path);
   if (!scenario) return fail(2, scenario.error().text);
   if (arguments.given("seed")) scenario->seed = arguments.integer("seed");
   if (arguments.given("duration-s")) scenario->duration_s = arguments.number("duration-s");
