@@ -68,6 +68,35 @@ double worst_mm(const Trace& trace, const Window& window) {
   return largest(trace, window, [](const TraceRow& row) { return 1000 * row.error_m.norm(); });
 }
 
+double worst_z_mm(const Trace& trace, const Window& window) {
+  return largest(trace, window,
+                 [](const TraceRow& row) { return 1000 * std::abs(row.error_m.z()); });
+}
+
+// The fastest way along the body's x in this sense, from row to row.
+double fastest_mm_s(const Trace& trace, const Window& window, double sense) {
+  double most = kNothing;
+  const TraceRow* before = nullptr;
+  for (const TraceRow& row : trace.rows) {
+    if (!inside(row, window)) continue;
+    if (before != nullptr) {
+      const Eigen::Vector3d way = before->vehicle.rotation.conjugate() *
+                                  (row.vehicle.translation - before->vehicle.translation);
+      most = std::fmax(most, sense * 1000 * way.x() / (row.time_s - before->time_s));
+    }
+    before = &row;
+  }
+  return most;
+}
+
+double forward_mm_s(const Trace& trace, const Window& window) {
+  return fastest_mm_s(trace, window, 1);
+}
+
+double backward_mm_s(const Trace& trace, const Window& window) {
+  return fastest_mm_s(trace, window, -1);
+}
+
 bool settled(const TraceRow& row) {
   return row.error_m.norm() <= kSettled_m && std::abs(row.error_rad) <= kSettled_rad;
 }
@@ -298,6 +327,9 @@ const std::vector<Measure>& measures() {
       {"rms_y_mm", "the same along y", rms_axis_mm<1>},
       {"rms_z_mm", "the same along z", rms_axis_mm<2>},
       {"rms_mm", "the same in space", rms_mm},
+      {"worst_z_mm", "the truth's largest distance from the goal along z of the hand", worst_z_mm},
+      {"forward_mm_s", "the vehicle's highest speed ahead", forward_mm_s},
+      {"backward_mm_s", "the same backwards", backward_mm_s},
       {"rms_yaw_deg", "the truth's turn away from the goal", rms_yaw_deg},
       {"worst_mm", "the largest distance from the goal", worst_mm},
       {"estimate_x_mm", "estimate minus truth along x of the left camera, rms of the found",

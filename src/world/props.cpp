@@ -29,9 +29,13 @@ Result<image_file::Raster8> picture_of(const TargetScenario& target, const std::
     notes.push_back(target.name + ": a drawn picture");
     return drawn(target.name);
   }
+  if (target.texture == "person") {
+    notes.push_back(target.name + ": a drawn person");
+    return person_picture(1);
+  }
   const Creature* creature = find_creature(target.texture);
   if (creature == nullptr) {
-    std::string names = "drawn";
+    std::string names = "drawn, person";
     for (const Creature& known : creatures()) names += ", " + std::string(known.name);
     return Error{"target '" + target.name + "': there is no texture '" + target.texture +
                  "'; there are: " + names};

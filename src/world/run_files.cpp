@@ -17,7 +17,8 @@
 namespace gannet::world {
 namespace {
 
-constexpr double kFullSpeed_rad_s = 370;  // of the thruster at full throttle
+constexpr double kWheelMotor_rad_s = 300;  // of an AGV's
+constexpr double kFullSpeed_rad_s = 370;   // of the thruster at full throttle
 
 std::string camera_text(const std::string& name, const Intrinsics& camera) {
   static const char* const kDistortions[] = {"none", "brown", "fisheye"};
@@ -57,6 +58,42 @@ vehicle::RovConfig rov_config(const RovPlantConfig& plant) {
   rov.net_buoyancy_n = (plant.water_density_kg_m3 * plant.volume_m3 - plant.mass_kg) * 9.81;
   rov.thruster_lag_s = kThrusterLag_s;
   return rov;
+}
+
+// The same of an AGV: its wheels as its maker says they are.
+void configure_agv(const VehicleScenario& vehicle, config::DaemonConfig& c) {
+  c.vehicle.agv.wheel_radius_m = vehicle.agv.wheel_radius_m;
+  c.vehicle.agv.track_m = vehicle.agv.track_m;
+  c.vehicle.agv.gear_ratio = vehicle.agv.gear_ratio;
+  c.servo.law = "follow_person";
+  c.servo.params.goal_z_m = 4;
+  c.drive.kind = vehicle.drives;
+  c.drive.vesc.mode = "speed";
+  c.drive.cia402.report_position = true;
+  for (int i = 0; i < 2; ++i)
+    c.drive.motors.push_back(
+        {.index = i, .node_id = 20 + i, .full_speed_rad_s = kWheelMotor_rad_s});
+}
+
+// A PA-10 as its owner would enter it, on drives that follow each target at once.
+void configure_arm(config::DaemonConfig& c) {
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  vehicle::ArmConfig& arm = c.vehicle.arm;
+  arm.robot = "custom";
+  arm.joints = vehicle::pa10_joints();
+  c.drive.kind = "cia402";
+  c.drive.cia402.mode = "cyclic_velocity";
+  c.drive.cia402.velocity_unit = "milli_rpm";
+  c.drive.cia402.increments_per_rev = 8192;
+  c.drive.cia402.report_position = true;
+  for (vehicle::JointConfig& joint : arm.joints) {
+    const int i = static_cast<int>(c.drive.motors.size());
+    joint.gear_ratio = kArmGear;
+    c.drive.motors.push_back({.index = i,
+                              .node_id = 20 + i,
+                              .full_speed_rad_s = joint.max_speed_deg_s * kDegree * kArmGear});
+  }
+  c.servo.params.control_roll = c.servo.params.control_pitch = true;
 }
 
 }  // namespace
@@ -105,6 +142,8 @@ config::DaemonConfig daemon_config(const Scenario& scenario, const RunFiles& fil
   c.can.path = files.bus();
   c.control.socket = files.control();
   c.vehicle.kind = scenario.vehicle.kind;
+  if (scenario.vehicle.kind == "agv") configure_agv(scenario.vehicle, c);
+  if (scenario.vehicle.kind == "arm") configure_arm(c);
   if (scenario.vehicle.kind == "rov") {
     c.vehicle.rov = rov_config(scenario.vehicle.plant);
     c.drive.kind = scenario.vehicle.drives;

@@ -139,7 +139,8 @@ void describe(Visitor& v, CameraConfig& c) {
 }
 
 void describe(Visitor& v, VehicleScenario& c) {
-  v.field("kind", c.kind, {.choices = {"rov", "none"}, .help = "What carries the cameras."});
+  v.field("kind", c.kind,
+          {.choices = {"rov", "agv", "arm", "none"}, .help = "What carries the cameras."});
   v.field("start_mm", c.start_mm,
           {.size = 3, .unit = "mm", .help = "Where the hand frame starts."});
   v.field("start_turn_deg", c.start_turn_deg,
@@ -153,7 +154,9 @@ void describe(Visitor& v, VehicleScenario& c) {
           {.min = 0, .max = 1000, .unit = "ms", .help = "From a frame on the bus to the motor."});
   v.field("estop_contacts", c.estop_contacts,
           {.min = 1, .max = 2, .help = "Of the e-stop button; two move in opposite ways."});
-  v.group("plant", c.plant, "The body and the water, BlueROV2 Heavy unless said otherwise.");
+  v.group("plant", c.plant, "A rov's body and water, BlueROV2 Heavy unless said otherwise.");
+  v.group("agv", c.agv, "An agv's body, wheels and floor.");
+  v.group("arm", c.arm, "An arm's joints: a Mitsubishi PA-10.");
 }
 
 void describe(Visitor& v, TargetScenario& c) {
@@ -183,6 +186,12 @@ void describe(Visitor& v, SceneScenario& c) {
            .max = 1e5,
            .unit = "mm",
            .help = "How far from the reference hand the textured ground is, along its view."});
+  v.field("floor_mm", c.floor_mm,
+          {.min = 0,
+           .max = 1e5,
+           .unit = "mm",
+           .help = "How far below the reference hand a textured floor is, which goes on to the "
+                   "horizon; 0: there is none."});
   v.field("detail", c.detail,
           {.choices = {"full", "plain"},
            .help = "plain: no ground, no blur, no noise, a fifth of the work; for emulated "

@@ -10,6 +10,8 @@
 #include "platform/base/result.hpp"
 #include "src/core/stereo_rig.hpp"
 #include "src/world/action.hpp"
+#include "src/world/agv_plant.hpp"
+#include "src/world/arm_plant.hpp"
 #include "src/world/check.hpp"
 #include "src/world/motion.hpp"
 #include "src/world/rov_plant.hpp"
@@ -29,14 +31,16 @@ struct CameraConfig {
 };
 
 struct VehicleScenario {
-  std::string kind = "rov";  // rov | none
+  std::string kind = "rov";  // rov | agv | arm | none
   std::vector<double> start_mm = {0, 0, 0};
   std::vector<double> start_turn_deg = {0, 0, 0};
   std::vector<double> current_mm_s = {0, 0, 0};
   std::string drives = "dronecan_esc";  // drive.kind of its motors
   double drive_delay_ms = 5;
   int estop_contacts = 1;
-  RovPlantConfig plant;
+  RovPlantConfig plant;  // of a rov
+  AgvPlantConfig agv;    // of an agv
+  ArmPlantConfig arm;    // of an arm
 };
 
 struct TargetScenario {
@@ -55,6 +59,7 @@ struct SceneScenario {
   double caustics = 0;
   int snow = 0;  // particles in 8 m³
   double background_mm = 1500;
+  double floor_mm = 0;          // below the reference hand; 0: none
   std::string detail = "full";  // full | plain
   SensorConfig sensor;
 };

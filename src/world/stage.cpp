@@ -42,6 +42,11 @@ Stage::Stage(const Scenario& scenario, const StageTextures& textures, std::uint6
   background_.pose = reference * wall;
   background_.size_m = {30, 30};
   background_.tile_m = kBottomTile_m;
+  floor_ = background_;
+  // Its far side is down: z of the picture, which looks away from the viewer, becomes the hand's y.
+  floor_.pose = reference * Transform<Hand, Target>{quaternion_from_rpy(-90 * kDegree, 0, 0),
+                                                    {0, scenario.scene.floor_mm / 1000, 0}};
+  has_floor_ = has_ground_ && scenario.scene.floor_mm > 0;
   light_.lux = scenario.scene.light_lux;
   light_.caustics = scenario.scene.caustics;
   if (light_.caustics > 0) light_.ambient = 0.5;  // the rest is sun, which waves can gather
@@ -65,6 +70,7 @@ Scene Stage::scene(double time_s) const {
   scene.light = light_;
   scene.particles = snow_;
   if (has_ground_) scene.background.push_back(background_);
+  if (has_floor_) scene.background.push_back(floor_);
   for (std::size_t i = 0; i < things_.size(); ++i) {
     const Thing& thing = things_[i];
     const Transform<World, Target> stands = pose(static_cast<int>(i), time_s);

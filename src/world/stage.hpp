@@ -50,6 +50,8 @@ class Stage {
 
   std::vector<Thing> things_;
   SceneObject background_;
+  SceneObject floor_;
+  bool has_floor_ = false;
   bool has_ground_;
   int cover_texture_;
   Water water_;

@@ -146,6 +146,61 @@ Raster8 pebbles_tint(int side, std::uint64_t seed) {
   return picture;
 }
 
+// Figures are in parts of the picture's height from the top, and of its half width from the middle.
+Raster8 person_picture(std::uint64_t seed) {
+  constexpr int kWidth = 186, kHeight = 586;
+  struct Part {  // a box with round ends, of two colours that alternate as cloth does
+    double middle, top, bottom, half;
+    std::array<double, 3> colour, other;
+    int across, down;  // texels of a check; 0: none
+  };
+  const std::array<double, 3> skin = {196, 146, 118}, hair = {58, 40, 30}, shirt = {190, 52, 44},
+                              light = {226, 208, 190}, cloth = {52, 66, 104}, seam = {92, 106, 140},
+                              shoe = {40, 34, 32}, sole = {210, 206, 198};
+  const std::array<Part, 12> parts = {{{-0.28, 0.50, 0.965, 0.24, cloth, seam, 19, 0},
+                                       {0.28, 0.50, 0.965, 0.24, cloth, seam, 23, 0},
+                                       {-0.30, 0.95, 1.0, 0.30, shoe, sole, 0, 9},
+                                       {0.30, 0.95, 1.0, 0.30, shoe, sole, 0, 9},
+                                       {-0.80, 0.20, 0.46, 0.17, light, shirt, 0, 21},
+                                       {0.80, 0.20, 0.46, 0.17, shirt, light, 0, 27},
+                                       {-0.82, 0.44, 0.54, 0.13, skin, skin, 0, 0},
+                                       {0.82, 0.44, 0.54, 0.13, skin, skin, 0, 0},
+                                       {0.0, 0.12, 0.19, 0.17, skin, skin, 0, 0},
+                                       {0.0, 0.165, 0.53, 0.66, shirt, light, 22, 26},
+                                       {0.0, 0.02, 0.145, 0.26, skin, skin, 0, 0},
+                                       {0.0, 0.0, 0.10, 0.28, hair, skin, 0, 0}}};
+  Raster8 picture(kWidth, kHeight, 4);
+  Random random(seed);
+  const auto coarse = octave(1024, 16, random);
+  const auto fine = octave(1024, 4, random);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double across = (x + 0.5) / kWidth * 2 - 1, down = (y + 0.5) / kHeight;
+      for (const Part& part : parts) {
+        // Texels from the middle line, and into the round ends.
+        const double from = std::abs(across - part.middle) * kWidth / 2;
+        const double half = part.half * kWidth / 2;
+        const double end = std::min(down - part.top, part.bottom - down) * kHeight;
+        if (end < 0 || from > half) continue;
+        const double round = std::min(12.0, half);
+        const double dx = from - (half - round), dy = round - end;
+        if (dx > 0 && dy > 0 && dx * dx + dy * dy > round * round) continue;
+        const int cells =
+            (part.across > 0 ? x / part.across : 0) + (part.down > 0 ? y / part.down : 0);
+        const auto& colour = cells % 2 == 0 ? part.colour : part.other;
+        const auto i = static_cast<std::size_t>(y) * 1024 + static_cast<std::size_t>(x);
+        const double grain =
+            22 * static_cast<double>(coarse[i]) + 12 * static_cast<double>(fine[i]);
+        std::uint8_t* p = picture.at(x, y);
+        for (std::size_t c = 0; c < 3; ++c)
+          p[c] = byte(colour[c] * (1 - 0.12 * from / half) + grain);
+        p[3] = 255;
+      }
+    }
+  }
+  return picture;
+}
+
 // Sunlight under waves is a net of bright lines: where a smooth random height crosses zero.
 Raster8 caustics_picture() {
   constexpr int kSide = 256;
