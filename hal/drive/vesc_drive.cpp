@@ -14,6 +14,7 @@ namespace {
 
 constexpr Duration kQuestionPeriod = std::chrono::milliseconds(50);  // fault and time-out in turn
 constexpr Duration kQuestionStep = std::chrono::milliseconds(5);     // not all in one cycle
+constexpr Duration kAnswerAge = std::chrono::seconds(1);             // ten answers lost in a row
 constexpr double kRadPerSPerRpm = 2 * std::numbers::pi / 60;
 constexpr double kKelvinAt0C = 273.15;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -140,6 +141,8 @@ bool VescDrive::take_answer(const CanFrame& frame, TimePoint time) {
   if (answer->mask == kFaultMask) {
     if (answer->value != 0 && feedback.fault_code == 0) ++feedback.error_count;
     feedback.fault_code = answer->value;
+    axis.tells_fault = true;
+    axis.told = time;
   } else if (answer->mask == kTimeoutMask) {
     const bool has_timed_out = (answer->value & 1) != 0;
     if (has_timed_out && is_silent(axis, time)) axis.guard = Guard::kProven;
@@ -207,7 +210,20 @@ int VescDrive::send(std::span<const DriveSetpoint> setpoints, bool enable, TimeP
 // ---- health -------------------------------------------------------------------------------------
 
 bool VescDrive::is_alive(std::size_t i, TimePoint now) const {
-  return axes_[i].was_heard && now - feedback_[i].time <= feedback_timeout_;
+  const Axis& axis = axes_[i];
+  return axis.was_heard && now - feedback_[i].time <= feedback_timeout_ &&
+         (!axis.tells_fault || now - axis.told <= kAnswerAge);
+}
+
+const char* VescDrive::trouble(std::size_t i, TimePoint now) const {
+  const Axis& axis = axes_[i];
+  if (axis.tells_fault && now - axis.told > kAnswerAge &&
+      now - feedback_[i].time <= feedback_timeout_)
+    return "it no longer tells its fault";
+  if (!is_alive(i, now)) return "";
+  if (!axis.tells_fault) return "it has not yet told its fault";
+  return axis.guard == Guard::kMissing ? "its own time-out does not pass"
+                                       : "its own time-out has not yet been seen";
 }
 
 bool VescDrive::is_guarded(const Axis& axis) const {
@@ -218,10 +234,10 @@ void VescDrive::watch(TimePoint now) {
   const Duration limit = from_seconds(config_.guard_time_s);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     Guard& guard = axes_[i].guard;
+    if (now - axes_[i].told > kAnswerAge) feedback_[i].fault_code = 0;
     if (!is_alive(i, now)) {
       guard = Guard::kUnknown;  // it may come back as another, or set otherwise
       axes_[i].absent = now;
-      feedback_[i].fault_code = 0;
     } else if (guard == Guard::kUnknown && is_silent(axes_[i], now) &&
                now - std::max(axes_[i].commanded, axes_[i].absent) > limit) {
       guard = Guard::kMissing;
@@ -245,7 +261,8 @@ DriveGroupHealth VescDrive::health(TimePoint now) const {
     const int fault = feedback_[i].fault_code;
     const bool alive = is_alive(i, now), faulty = fault != 0;
     const bool guarded = is_guarded(axis) || axis.guard == Guard::kUnknown;
-    const bool ready = alive && (is_guarded(axis) || axis.guard == Guard::kMissing);
+    const bool ready =
+        alive && axis.tells_fault && (is_guarded(axis) || axis.guard == Guard::kMissing);
     health.all_alive = health.all_alive && alive;
     health.any_fault = health.any_fault || faulty;
     health.all_ready = health.all_ready && ready;
@@ -255,9 +272,8 @@ DriveGroupHealth VescDrive::health(TimePoint now) const {
     if (faulty) {
       health.trouble = words_of_fault(fault);
       health.trouble_code = static_cast<std::uint32_t>(fault);
-    } else if (alive) {
-      health.trouble = axis.guard == Guard::kMissing ? "its own time-out does not pass"
-                                                     : "its own time-out has not yet been seen";
+    } else {
+      health.trouble = trouble(i, now);
     }
   }
   return health;

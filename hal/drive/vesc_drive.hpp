@@ -8,8 +8,11 @@
 // One that is not alive is told to stop until it has been back for stop_time_s: a bus that returns
 // may bring it old commands first, from a queue. One that does not time out within guard_time_s is
 // not guarded, or hears other commands than ours. Each VESC is asked for its fault and its time-out
-// ten times a second. In: STATUS 1, 4 and 5, and the answers. A motor is alive while STATUS 1 is
-// fresh. In feedback a value not yet heard is NaN. Servo thread; RT safe after creation.
+// ten times a second.
+//
+// In: STATUS 1, 4 and 5, and the answers. A motor is alive while STATUS 1 and, once it has come,
+// the answer about its fault are fresh; without that answer it is not ready. In feedback a value
+// not yet heard is NaN. Servo thread; RT safe after creation.
 #pragma once
 
 #include <array>
@@ -51,6 +54,8 @@ class VescDrive final : public DriveGroup {
     double full = 0;            // what a setpoint of 1 commands, with the sign
     double rad_s_per_erpm = 0;  // with the sign
     bool was_heard = false;
+    bool tells_fault = false;  // it has done so
+    TimePoint told = {};       // its fault, last
     Guard guard = Guard::kUnknown;
     bool asks_for_timeout = false;  // turn by turn with the fault
     TimePoint next_question = {};
@@ -65,6 +70,7 @@ class VescDrive final : public DriveGroup {
   bool is_silent(const Axis& axis, TimePoint now) const;
   bool is_alive(std::size_t i, TimePoint now) const;
   bool is_guarded(const Axis& axis) const;
+  const char* trouble(std::size_t i, TimePoint now) const;
   void watch(TimePoint now);
   void set_states(TimePoint now);
 

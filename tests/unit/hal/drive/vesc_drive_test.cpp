@@ -16,6 +16,8 @@ namespace {
 
 const char* const kStatus = "00000915#0000000000000000";
 
+const char* const kWell = "0000080A#1501320000800000";  // no fault
+
 constexpr TimePoint at_ms(std::int64_t ms) { return TimePoint(std::chrono::milliseconds(ms)); }
 
 DriveConfig with_motors(int motors) {
@@ -123,7 +125,7 @@ TEST_F(VescDriveTest, OneThatIsAwayIsToldToStopUntilItHasBeenBackForAWhile) {
 
 TEST_F(VescDriveTest, OneThatIsAwayDoesNotKeepTheOthersFromShowingTheirTimeOut) {
   make(with_motors(2));
-  idle(120, {kStatus});
+  idle(120, {kStatus, kWell});
   EXPECT_EQ(send({}, false), (Texts{"00000116#00000000"}));
   hear({answer(0x15, true, 1)});
   EXPECT_EQ(health().first_bad, 1);
@@ -191,7 +193,7 @@ TEST_F(VescDriveTest, ReadyOnlyOnceTheTimeOutHasBeenSeen) {
   make(with_motors(1));
   const std::string status = "00000915#0000000000000000";
   hear({status, answer(0x15, true, 1)});  // too early: it has not yet been left alone
-  idle(110, {status});
+  idle(110, {status, kWell});
   EXPECT_TRUE(health().all_alive);
   EXPECT_FALSE(health().all_ready);
   EXPECT_TRUE(health().guards_itself);
@@ -205,14 +207,14 @@ TEST_F(VescDriveTest, ReadyOnlyOnceTheTimeOutHasBeenSeen) {
 
 TEST_F(VescDriveTest, AVescThatNeverTimesOutIsUnguarded) {
   make(with_motors(1));
-  idle(450, {"00000915#0000000000000000", answer(0x15, true, 0)});
+  idle(450, {kStatus, kWell, answer(0x15, true, 0)});
   EXPECT_FALSE(health().guards_itself);
   EXPECT_EQ(health().first_bad, 0);
   EXPECT_STREQ(health().trouble, "its own time-out does not pass");
   DriveConfig config = with_motors(1);
   config.vesc.accept_unguarded = true;
   make(config);
-  idle(450, {"00000915#0000000000000000", answer(0x15, true, 0)});
+  idle(450, {kStatus, kWell, answer(0x15, true, 0)});
   EXPECT_TRUE(health().guards_itself);
   EXPECT_TRUE(health().all_ready);
 }
@@ -220,12 +222,12 @@ TEST_F(VescDriveTest, AVescThatNeverTimesOutIsUnguarded) {
 TEST_F(VescDriveTest, OneThatWasAwayMustShowItsTimeOutAgain) {
   make(with_motors(1));
   const std::string status = "00000915#0000000000000000";
-  idle(110, {status});
+  idle(110, {status, kWell});
   hear({answer(0x15, true, 1)});
   EXPECT_TRUE(health().all_ready);
   idle(120, {});
   EXPECT_FALSE(health().all_alive);
-  idle(1, {status});
+  idle(1, {status, kWell});
   EXPECT_TRUE(health().all_alive);
   EXPECT_FALSE(health().all_ready);
   EXPECT_TRUE(health().guards_itself);  // it gets its time to show it
@@ -240,7 +242,7 @@ TEST_F(VescDriveTest, TellsFaultsInWords) {
   EXPECT_TRUE(health().any_fault);
   EXPECT_EQ(sut_->feedback()[1].state, DriveState::kFault);
   EXPECT_EQ(sut_->feedback()[1].error_count, 1u);
-  hear({answer(0x15, true, 1)});
+  hear({kWell});
   idle(110, status);
   hear({answer(0x15, true, 1)});
   EXPECT_EQ(health().first_bad, 1);
@@ -248,6 +250,35 @@ TEST_F(VescDriveTest, TellsFaultsInWords) {
   EXPECT_EQ(health().trouble_code, 4u);
   hear({answer(0x16, false, 0)});
   EXPECT_FALSE(health().any_fault);
+}
+
+TEST_F(VescDriveTest, IsNotReadyBeforeItsFaultIsKnown) {
+  make(with_motors(1));
+  idle(110, {kStatus});
+  hear({answer(0x15, true, 1)});
+  EXPECT_FALSE(health().all_ready);
+  EXPECT_STREQ(health().trouble, "it has not yet told its fault");
+  hear({answer(0x15, false, 0)});
+  EXPECT_TRUE(health().all_ready);
+}
+
+// An old answer says nothing of now, be it a fault or none.
+TEST_F(VescDriveTest, OneThatNoLongerTellsItsFaultIsNotAlive) {
+  for (const int fault : {0, 4}) {
+    make(with_motors(1));
+    hear({kStatus, answer(0x15, false, fault)});
+    idle(200, {kStatus});
+    EXPECT_TRUE(health().all_alive);
+    EXPECT_EQ(health().any_fault, fault != 0);
+    idle(3, {kStatus});
+    EXPECT_FALSE(health().all_alive);
+    EXPECT_FALSE(health().any_fault);
+    EXPECT_EQ(sut_->feedback()[0].state, DriveState::kUnknown);
+    EXPECT_STREQ(health().trouble, "it no longer tells its fault");
+    idle(1, {kStatus, answer(0x15, false, fault)});
+    EXPECT_TRUE(health().all_alive);
+    EXPECT_EQ(health().any_fault, fault != 0);
+  }
 }
 
 TEST_F(VescDriveTest, CountsWhatIsMalformedAndIgnoresOthers) {
