@@ -21,6 +21,7 @@ class Checker {
     check_track();
     check_vehicle();
     check_arm();
+    check_agv();
     check_drive();
     check_estop();
     check_kernel_times();
@@ -106,6 +107,30 @@ class Checker {
     const vehicle::RovConfig& rov = config_.vehicle.rov;
     if (rov.frame == "custom") return static_cast<int>(rov.thrusters.size());
     return rov.frame == "vectored" ? 6 : 8;
+  }
+
+  void check_agv() {
+    if (config_.vehicle.kind != "agv") return;
+    const std::size_t motors = config_.drive.motors.size();
+    if (motors != 2)
+      refuse("drive.motor", std::to_string(motors) +
+                                " motors for 2 wheels; each needs one table [[drive.motor]], the "
+                                "left wheel's first");
+    if (config_.drive.kind == "dronecan_esc")
+      refuse("drive.kind",
+             "\"dronecan_esc\" commands a throttle; an AGV's wheels need a speed: "
+             "cia402, vesc, odrive");
+    if (config_.drive.kind == "vesc" && config_.drive.vesc.mode != "speed")
+      refuse("drive.vesc.mode", "must be \"speed\" for an AGV");
+    const vehicle::AgvConfig& agv = config_.vehicle.agv;
+    for (std::size_t i = 0; i < motors; ++i) {
+      const hal::MotorConfig& motor = config_.drive.motors[i];
+      const double wheel = motor.full_speed_rad_s * motor.max_command / agv.gear_ratio;
+      if (wheel < agv.max_wheel_speed_rad_s)
+        refuse("vehicle.agv.max_wheel_speed_rad_s", "motor " + std::to_string(i + 1) +
+                                                        " turns its wheel by " +
+                                                        number_text(wheel) + " rad/s at most");
+    }
   }
 
   void check_arm() {
