@@ -120,8 +120,9 @@ int OdriveAxis::run(double turns_per_s, TimePoint now, std::span<CanFrame> out) 
     out[n++] = mode_frame(node, settings_.input_mode);
     out[n++] = velocity_frame(node, 0);
     out[n++] = state_frame(node, kClosedLoop);
-  } else {
-    out[n++] = velocity_frame(node, 0);  // feeds the watchdog
+  } else {  // feeds the watchdog; a mode that got lost would else stay another
+    out[n++] = mode_frame(node, settings_.input_mode);
+    out[n++] = velocity_frame(node, 0);
   }
   return static_cast<int>(n);
 }

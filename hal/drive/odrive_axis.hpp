@@ -5,8 +5,8 @@
 //     request says it, then silence. Any frame to the axis
 //     feeds its watchdog, so that only silence shows whether it expires. An axis that stays in
 //     closed loop is stopped by Estop.
-//   enabled: errors of the watchdog cleared, velocity control, speed 0, closed loop asked for until
-//     the axis says it; then a speed in each cycle.
+//   enabled: errors of the watchdog cleared, closed loop asked for until the axis says it, with
+//     velocity control and speed 0 in each cycle; then a speed in each cycle.
 //
 // An error, or closed loop left or not reached, while enabled trips the axis: it is asked to idle
 // and is faulty until enable has been taken away. Errors other than the watchdog's are cleared by a

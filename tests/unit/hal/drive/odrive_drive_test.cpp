@@ -109,7 +109,8 @@ TEST_F(OdriveDriveTest, EntersClosedLoopThenCommandsSpeed) {
   make_ready(1);
   EXPECT_EQ(send(0.5, true),
             (Texts{"078#", "06B#0200000002000000", "06D#0000000000000000", "067#08000000"}));
-  EXPECT_EQ(send(0.5, true), (Texts{"06D#0000000000000000"}));  // feeds the watchdog
+  EXPECT_EQ(send(0.5, true),  // feeds the watchdog
+            (Texts{"06B#0200000002000000", "06D#0000000000000000"}));
   hear({heartbeat(3, kNone, 8)});
   EXPECT_EQ(send(0.5, true), (Texts{"06D#0000004000000000"}));    // 2 turns/s
   EXPECT_EQ(send(-0.25, true), (Texts{"06D#000080BF00000000"}));  // −1
