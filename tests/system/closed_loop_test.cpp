@@ -69,6 +69,9 @@ TEST(ClosedLoop, servoes_by_odrives_and_resets_a_fault) { expect_all_passed("rov
 TEST(ClosedLoop, servoes_by_cia402_drives_and_stops_at_a_fault) { expect_all_passed("rov_cia402"); }
 TEST(ClosedLoop, holds_while_the_cameras_are_blind) { expect_all_passed("rov_camera_blind"); }
 
+TEST(ClosedLoop, follows_a_person_while_the_light_goes) { expect_all_passed("agv_follow"); }
+TEST(ClosedLoop, stands_while_a_person_comes_nearer) { expect_all_passed("agv_nearer"); }
+
 TEST(ClosedLoop, holds_against_a_current) { expect_all_passed("rov_current"); }
 TEST(ClosedLoop, goes_where_a_hand_steers_and_comes_back) { expect_all_passed("rov_manual"); }
 TEST(ClosedLoop, follows_with_frames_missing) { expect_all_passed("rov_dropped_frames"); }
