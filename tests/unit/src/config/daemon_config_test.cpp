@@ -271,6 +271,18 @@ TEST(DaemonConfig, each_example_loads_with_its_rig) {
   EXPECT_GE(examples, 2);
 }
 
+TEST(DaemonConfig, refuses_an_agv_whose_wheels_take_no_speed_or_turn_too_slowly) {
+  if (!fs::exists("docs/examples")) GTEST_SKIP() << "not in the source tree";
+  const auto refused = [](const std::string& set, const std::string& why) {
+    const auto loaded = load_daemon_config({"docs/examples/agv.toml", {set}});
+    ASSERT_FALSE(loaded) << set;
+    EXPECT_NE(loaded.error().text.find(why), std::string::npos) << loaded.error().text;
+  };
+  refused("drive.kind=dronecan_esc", "wheels need a speed");
+  refused("drive.kind=vesc", "must be \"speed\"");
+  refused("vehicle.agv.gear_ratio=30", "10 rad/s at most");
+}
+
 TEST(DaemonConfig, the_arm_example_writes_the_pa10_out) {
   if (!fs::exists("docs/examples")) GTEST_SKIP() << "not in the source tree";
   const auto loaded = load_daemon_config({"docs/examples/arm.toml", {}});
