@@ -3,8 +3,7 @@
 // (property-tested there against their derivative); ArmPlantConfig can make the real arm's links
 // longer or shorter than the daemon knows.
 //
-// The lag of 30 ms is assumed: the PA-10's maker publishes none; its joints' servos are stiff (1
-// kHz and faster inner loops on harmonic drives), and 30 ms is the slow end of what such loops do.
+// The lag of 30 ms is assumed: the PA-10's maker publishes none.
 //
 // The hand stands at the world's reference place with the joints at their rest; the foot is where
 // that puts it. Any start pose is reached by inverse kinematics from there. Fixed steps of 1 ms.
