@@ -67,10 +67,15 @@ void tell_bad_arguments(std::span<const std::string> args, const std::string& te
 }
 
 // Before the search: where nothing is found, no picture would show that it could not be written.
-Result<void> check_overlay(const std::string& path) {
+Result<void> check_overlay(const Arguments& arguments) {
+  const std::string path = arguments.text("overlay");
   if (!path.ends_with(".png")) return Error{"--overlay: '" + path + "' does not end in .png"};
   const auto folder = std::filesystem::path(path).parent_path();
   std::error_code error;
+  for (const char* input : {"rig", "left", "right", "model"}) {
+    if (std::filesystem::equivalent(path, arguments.text(input), error))
+      return Error{"--overlay: '" + path + "' is the input --" + input + "; name another file"};
+  }
   if (folder.empty() || std::filesystem::is_directory(folder, error)) return {};
   return Error{"--overlay: '" + path + "': there is no folder '" + folder.string() + "'"};
 }
@@ -78,13 +83,18 @@ Result<void> check_overlay(const std::string& path) {
 int run(const Arguments& arguments) {
   const bool json = arguments.flag("json");
   if (arguments.given("overlay")) {
-    if (const auto usable = check_overlay(arguments.text("overlay")); !usable)
+    if (const auto usable = check_overlay(arguments); !usable)
       return refuse(json, usable.error().text);
   }
   auto locator = Locator::create(arguments);
   if (!locator) return refuse(json, locator.error().text);
   const Answer answer = locator->locate();
   const track::Recognition& r = answer.recognition;
+  // The picture of an earlier search must not pass for this one's.
+  if (arguments.given("overlay") && !r.found) {
+    std::error_code nothing_there;
+    std::filesystem::remove(arguments.text("overlay"), nothing_there);
+  }
   if (arguments.given("overlay") && r.found) {
     const hal::Image picture = locator->overlay(r.left_from_target, r.size_m);
     const auto written = image_file::write_png(arguments.text("overlay"), picture.view());

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <functional>
@@ -93,6 +94,13 @@ class Talk {
   const std::string path_;
   std::unique_ptr<Client> client_;
 };
+
+// Whoever asked for JSON gets some, also where the words were wrong already.
+void tell_bad_arguments(std::span<const std::string> args, const std::string& text) {
+  if (std::find(args.begin(), args.end(), "--json") == args.end()) return;
+  const Json error = {{"code", "bad_params"}, {"text", text}};
+  std::printf("%s\n", Json{{"error", error}}.dump().c_str());
+}
 
 std::string without_last_newline(std::string text) {
   if (!text.empty() && text.back() == '\n') text.pop_back();
@@ -294,7 +302,7 @@ int run_manual(const Arguments& arguments) {
 }  // namespace
 
 std::vector<Subcommand> online_subcommands() {
-  return {
+  std::vector<Subcommand> all = {
       {describe("status", "tells state, target and estimate of the daemon", "gannet status"),
        &run_status},
       {describe("arm", "lets the daemon move the vehicle", "gannet arm"), &run_arm},
@@ -312,6 +320,8 @@ std::vector<Subcommand> online_subcommands() {
       {describe_events(), &run_events},
       {describe_top(), &run_top},
   };
+  for (Subcommand& sub : all) sub.tell_bad_arguments = &tell_bad_arguments;
+  return all;
 }
 
 }  // namespace gannet::tool

@@ -110,6 +110,8 @@ refuses 'locate: no evaluations' '--evaluations: 0' "${locate[@]}" --model crab.
 refuses 'locate: unknown kernels' 'no kernels "sse9"' "${locate[@]}" --model crab.gannet --simd sse9
 refuses 'locate: an overlay into nowhere' 'no/such/o.png' "${locate[@]/empty.png/target.png}" --roi 50,30,60,60 \
   --z-mm 100:10000 --overlay no/such/o.png
+refuses 'locate: an overlay over an input' 'is the input --left' "${locate[@]/empty.png/target.png}" \
+  --roi 50,30,60,60 --z-mm 100:10000 --overlay ./target.png
 for case in "--model no.gannet" "--roi 150,10,40,40" "--model crab.gannet --optimiser x" "--modle crab.gannet"; do
   # shellcheck disable=SC2086
   refuses "locate: JSON for $case" '.' "${locate[@]}" $case --json
@@ -151,6 +153,8 @@ refuses 'status: a file that is no socket' 'rig.toml' "$gannet" status --socket 
 refuses 'target: an unknown kind' "kind: 'fish' is none of model, roi, none" "$gannet" target fish
 refuses 'target: half a rectangle' 'not of the form X,Y,W,H' "$gannet" target roi 1,2,3
 refuses 'goal: two numbers' 'not of the form X,Y,Z' "$gannet" goal 1,2
+refuses 'goal: a word, as JSON' "'abc' is not a number" "$gannet" goal 0,0,abc --json
+grep -q '"code":"bad_params"' out.txt && pass || fail 'goal: the JSON error on standard output'
 refuses 'a mistyped subcommand' "'lcoate' is no subcommand .did you mean locate" "$gannet" lcoate
 refuses 'no subcommand' 'a subcommand is missing' "$gannet"
 

@@ -26,6 +26,7 @@ done
 "${locate[@]}" --overlay seen.png >out.txt
 check 'the overlay is written' test -s seen.png
 
+echo 'of an earlier search' >none.png
 "$gannet" locate --rig rig.toml --left "$pictures/empty.png" --right "$pictures/empty.png" \
   --model disc.gannet --evaluations 3000 --json --overlay none.png >out.txt
 check 'nothing is found in an empty scene' test $? -eq 1
