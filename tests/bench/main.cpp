@@ -9,7 +9,8 @@
 namespace {
 
 constexpr const char* kHelp =
-    "run [--quick] [--only GROUP] [--scenes N] [--trials N] [--json FILE] [--flags TEXT] [--commit TEXT]\n"
+    "run [--quick] [--only GROUP] [--scenes N] [--trials N] [--json FILE] [--flags TEXT] [--commit "
+    "TEXT]\n"
     "  --quick   small pictures, few turns: does it run? The figures mean nothing.\n"
     "  --only    kernels | fitness | handover | frame | acquisition | accuracy | render | jitter\n"
     "  --scenes  of the acquisition, 60 unless told; each method sees all of them\n"
@@ -21,14 +22,11 @@ struct Group {
   const char* name;
   void (*run)(const gannet::bench::Options&, gannet::bench::Results&);
 };
-constexpr Group kGroups[] = {{"kernels", gannet::bench::bench_kernels},
-                             {"fitness", gannet::bench::bench_fitness},
-                             {"handover", gannet::bench::bench_handover},
-                             {"frame", gannet::bench::bench_frame},
-                             {"acquisition", gannet::bench::bench_acquisition},
-                             {"accuracy", gannet::bench::bench_accuracy},
-                             {"render", gannet::bench::bench_render},
-                             {"jitter", gannet::bench::bench_jitter}};
+constexpr Group kGroups[] = {
+    {"kernels", gannet::bench::bench_kernels},         {"fitness", gannet::bench::bench_fitness},
+    {"handover", gannet::bench::bench_handover},       {"frame", gannet::bench::bench_frame},
+    {"acquisition", gannet::bench::bench_acquisition}, {"accuracy", gannet::bench::bench_accuracy},
+    {"render", gannet::bench::bench_render},           {"jitter", gannet::bench::bench_jitter}};
 
 }  // namespace
 
