@@ -148,6 +148,20 @@ Result<PhotoPatch> cut_out(const PhotoInput& input, const Intrinsics& camera) {
   return patch;
 }
 
+// What a pixel of the frame is blurred with lies within three of the photo: frames are taken from up
+// to twice as far away, and smoothed by a pixel.
+constexpr int kFrameBlurPx = 3;
+
+// Whether the silhouette reaches so far all around.
+bool surrounded(const PhotoPatch& photo, int x, int y, int reach) {
+  if (x < reach || y < reach || x + reach >= photo.width || y + reach >= photo.height) return false;
+  for (int row = y - reach; row <= y + reach; ++row) {
+    const auto first = photo.mask.begin() + row * photo.width + x - reach;
+    if (std::find(first, first + 2 * reach + 1, 0) != first + 2 * reach + 1) return false;
+  }
+  return true;
+}
+
 Result<PatchModel> make_patch_model(const PhotoPatch& photo, const BuildOptions& options) {
   const double pixel_x = photo.distance_m / photo.fx;
   const double pixel_y = photo.distance_m / photo.fy;
@@ -179,7 +193,11 @@ Result<PatchModel> make_patch_model(const PhotoPatch& photo, const BuildOptions&
       const auto y =
           static_cast<int>(std::lround(photo.centre_px.y() + static_cast<double>(p.y_m) / pixel_y));
       if (x < 0 || y < 0 || x >= photo.width || y >= photo.height) continue;
+      // Where that pixel's centre is: half a pixel beside it would cost a slope's worth of colour.
+      p.x_m = static_cast<float>((x - photo.centre_px.x()) * pixel_x);
+      p.y_m = static_cast<float>((y - photo.centre_px.y()) * pixel_y);
       p.inside = photo.mask[static_cast<std::size_t>(y * photo.width + x)] != 0;
+      p.border = p.inside && !surrounded(photo, x, y, radius + kFrameBlurPx);
       p.colour = colour_of(means.at(x, y));
       (p.inside ? model.points : out).push_back(p);
     }

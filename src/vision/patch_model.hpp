@@ -26,6 +26,8 @@ struct ModelPoint {
   float y_m = 0;       // down on the photo
   bool inside = true;  // S_in, else S_out
   Yuv colour;          // S_out: of the photo's own surroundings there
+  // Of S_in: so near to the outline that the surroundings of the photo are blurred into its colour.
+  bool border = false;
 };
 
 // A rectangle of whole pixels in the left image.

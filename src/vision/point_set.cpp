@@ -44,10 +44,14 @@ void PointSet::assign(const std::vector<ModelPoint>& points, const Yuv& backgrou
   hue_value.assign(n, 0);
   correlation.assign(4 * n, 0);
 
-  std::size_t next_in = 0;
+  const auto is_core = [](const ModelPoint& p) { return p.inside && !p.border; };
+  const auto all_core = std::count_if(points.begin(), points.end(), is_core);
+  core = static_cast<int>(all_core) / kLanes * kLanes;
+  std::size_t next_core = 0;
+  auto next_border = static_cast<std::size_t>(all_core);
   auto next_out = static_cast<std::size_t>(inside_padded);
   for (const ModelPoint& p : points) {
-    const std::size_t i = p.inside ? next_in++ : next_out++;
+    const std::size_t i = is_core(p) ? next_core++ : p.inside ? next_border++ : next_out++;
     x[i] = p.x_m;
     y[i] = p.y_m;
     colour[i] = p.inside || own_outside ? p.colour : background;
@@ -104,6 +108,7 @@ void coarsen(const std::vector<ModelPoint>& points, double spacing, double facto
     for (end = begin + 1; end < out.size() && key_of(out[end]) == key_of(out[begin]); ++end) {
       sum.x_m += out[end].x_m;
       sum.y_m += out[end].y_m;
+      sum.border |= out[end].border;
       sum.colour.y += out[end].colour.y;
       sum.colour.u += out[end].colour.u;
       sum.colour.v += out[end].colour.v;

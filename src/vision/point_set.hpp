@@ -14,6 +14,7 @@ namespace gannet::vision {
 struct PointSet {
   int inside = 0;         // S_in points
   int outside = 0;        // S_out points
+  int core = 0;           // of S_in, first: without border (rounded down to whole lanes)
   int inside_padded = 0;  // S_out starts here
   int total_padded = 0;
 

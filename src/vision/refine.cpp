@@ -131,60 +131,107 @@ void set(float* to, const Vector3d& v) {
 }
 
 template <int P>
+bool invert(const Matrix<double, P, P>& hessian, double factor, Matrix<double, P, P>& covariance) {
+  const Eigen::LDLT<Matrix<double, P, P>> ldlt(hessian);
+  if (ldlt.info() != Eigen::Success || ldlt.vectorD().minCoeff() <= 0) return false;
+  covariance = factor * ldlt.solve(Matrix<double, P, P>::Identity());
+  return covariance.allFinite();
+}
+
+template <int P>
 struct Problem {
   const StereoRig& rig;
   const PointSet& points;
   const PreparedFrame& frame;
   const RefineOptions& options;
   const RefineKernels& kernels = refine_kernels();
-  std::array<typename ChannelSums<P>::Fit, 6> fits = {};
+  using Fits = std::array<typename ChannelSums<P>::Fit, 6>;
+  Fits fits = {};
+  bool core_only = false;
 
-  // One pass; of_eye(eye, rotation, translation) tells the pose, rotation and translation being the
-  // camera's from the left one.
-  template <class OfEye>
-  bool accumulate(OfEye&& of_eye, Matrix<double, P, P>& hessian, Matrix<double, P, 1>& slope) {
-    hessian.setZero();
-    slope.setZero();
+  struct Normal {
+    Matrix<double, P, P> hessian = Matrix<double, P, P>::Zero();
+    Matrix<double, P, 1> slope = Matrix<double, P, 1>::Zero();
+    Fits fits = {};
     int channels = 0;
-    for (int at = P == 6 ? 0 : 1; at < 2; ++at) {
-      const bool right = at == 1;
-      const Intrinsics camera = at_level(right ? rig.right : rig.left, options.level);
-      const Eigen::Matrix3d rotation = right ? rig.right_from_left.rotation.toRotationMatrix()
-                                             : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-      const Vector3d translation =
-          right ? rig.right_from_left.translation : Vector3d(Vector3d::Zero());
-      RefineEye eye = {};
-      of_eye(eye, rotation, translation);
-      set(eye.turn, Eigen::Matrix3d(rotation.transpose()));
-      eye.fx = static_cast<float>(camera.fx), eye.fy = static_cast<float>(camera.fy);
-      eye.cx = static_cast<float>(camera.cx), eye.cy = static_cast<float>(camera.cy);
-      const PackedPlane& plane =
-          (right ? frame.right() : frame.left()).packed[static_cast<std::size_t>(options.level)];
-      eye.width = plane.width, eye.height = plane.height;
-      for (std::size_t c = 0; c < 3; ++c) {
-        eye.smooth[c] = plane.smooth[c];
-        const auto& fit = fits[3 * static_cast<std::size_t>(at) + c];
-        if (!fit.ok) continue;
-        // The kernels' values are less 128. Cauchy at 2.4 σ.
-        eye.fit[c] = {static_cast<float>(fit.gain), static_cast<float>(fit.offset),
-                      static_cast<float>(1 / (6 * fit.variance))};
-      }
-      RefineSums<P> sums;
-      add(camera, eye, 0, points.inside_padded, 1, sums);
-      add(camera, eye, points.inside_padded, points.total_padded,
-          static_cast<float>(options.outside_weight), sums);
+
+    void add(const RefineSums<P>& sums, std::size_t first) {
       for (std::size_t c = 0; c < 3; ++c) {
         const ChannelSums<P> channel(sums.lanes[c]);
-        auto& fit = fits[3 * static_cast<std::size_t>(at) + c] = channel.fit();
+        auto& fit = fits[first + c] = channel.fit();
         if (!fit.ok) continue;
         channel.eliminate(fit, hessian, slope);
         ++channels;
       }
     }
-    return channels > 0;
+  };
+
+  // One pass; of_eye(eye, rotation, translation) tells the pose, rotation and translation being the
+  // camera's from the left one.
+  template <class OfEye>
+  bool accumulate(OfEye&& of_eye, Matrix<double, P, P>& hessian, Matrix<double, P, 1>& slope) {
+    const bool split = P == 6 && options.level == 0 && points.core > 0;
+    Normal all, core;
+    for (int at = P == 6 ? 0 : 1; at < 2; ++at) {
+      const bool right = at == 1;
+      const Intrinsics camera = at_level(right ? rig.right : rig.left, options.level);
+      const RefineEye eye = eye_of(right, camera, of_eye);
+      const auto first = 3 * static_cast<std::size_t>(at);
+      RefineSums<P> sums;
+      if (split) {
+        add(camera, eye, 0, points.core, 1, sums);
+        core.add(sums, first);
+        if (core_only) continue;
+      }
+      add(camera, eye, split ? points.core : 0, points.inside_padded, 1, sums);
+      add(camera, eye, points.inside_padded, points.total_padded,
+          static_cast<float>(options.outside_weight), sums);
+      all.add(sums, first);
+    }
+    // The first pass has no weights yet and may be far off.
+    if (split && !core_only && weighted) core_only = suffices(core.hessian, all.hessian);
+    weighted = true;
+    const Normal& normal = core_only ? core : all;
+    fits = normal.fits;
+    hessian = normal.hessian;
+    slope = normal.slope;
+    return normal.channels > 0;
   }
 
+  bool weighted = false;
+
  private:
+  template <class OfEye>
+  RefineEye eye_of(bool right, const Intrinsics& camera, OfEye&& of_eye) const {
+    const Eigen::Matrix3d rotation = right ? rig.right_from_left.rotation.toRotationMatrix()
+                                           : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+    RefineEye eye = {};
+    of_eye(eye, rotation, right ? rig.right_from_left.translation : Vector3d(Vector3d::Zero()));
+    set(eye.turn, Eigen::Matrix3d(rotation.transpose()));
+    eye.fx = static_cast<float>(camera.fx), eye.fy = static_cast<float>(camera.fy);
+    eye.cx = static_cast<float>(camera.cx), eye.cy = static_cast<float>(camera.cy);
+    const PackedPlane& plane =
+        (right ? frame.right() : frame.left()).packed[static_cast<std::size_t>(options.level)];
+    eye.width = plane.width, eye.height = plane.height;
+    for (std::size_t c = 0; c < 3; ++c) {
+      eye.smooth[c] = plane.smooth[c];
+      const auto& fit = fits[(right ? 3 : 0) + c];
+      if (!fit.ok) continue;
+      // The kernels' values are less 128. Cauchy at 2.4 σ.
+      eye.fit[c] = {static_cast<float>(fit.gain), static_cast<float>(fit.offset),
+                    static_cast<float>(1 / (6 * fit.variance))};
+    }
+    return eye;
+  }
+
+  // Whether no standard deviation of the core alone is much larger than with all points.
+  bool suffices(const Matrix<double, P, P>& core, const Matrix<double, P, P>& all) const {
+    Matrix<double, P, P> by_core, by_all;
+    if (!invert<P>(core, 1, by_core) || !invert<P>(all, 1, by_all)) return false;
+    const double most = options.core_suffices * options.core_suffices;
+    return (by_core.diagonal().array() <= most * by_all.diagonal().array()).all();
+  }
+
   void add(const Intrinsics& camera, const RefineEye& eye, int begin, int end, float weight,
            RefineSums<P>& sums) const {
     const bool has_lens = camera.distortion != Distortion::kNone;
@@ -226,14 +273,6 @@ bool solve(const Matrix<double, P, P>& hessian, const Matrix<double, P, 1>& slop
   if (ldlt.info() != Eigen::Success || !ldlt.isPositive()) return false;
   step = -ldlt.solve(slope);
   return step.allFinite();
-}
-
-template <int P>
-bool invert(const Matrix<double, P, P>& hessian, double factor, Matrix<double, P, P>& covariance) {
-  const Eigen::LDLT<Matrix<double, P, P>> ldlt(hessian);
-  if (ldlt.info() != Eigen::Success || ldlt.vectorD().minCoeff() <= 0) return false;
-  covariance = factor * ldlt.solve(Matrix<double, P, P>::Identity());
-  return covariance.allFinite();
 }
 
 }  // namespace

@@ -16,6 +16,10 @@ struct RefineOptions {
   // A last step of so many standard deviations ends it; what it leaves is a tenth of that.
   double sigmas_stop = 0.1;
   double outside_weight = 0.3;  // of S_out's residuals: the background is only known by its mean
+  // The surroundings of the photo are blurred into what is near the outline, and those of the frame
+  // are others: this pulls at the pose. Points away from the outline alone end the refinement where
+  // no standard deviation grows by more than this factor without the others, at full size.
+  double core_suffices = 2.5;
   // Neighbouring samples of a smoothed image share noise: what independent samples would give is
   // this much too good, as a variance.
   double shared_noise = 4.0;
