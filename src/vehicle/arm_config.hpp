@@ -4,7 +4,8 @@
 // with seven joints (PA10-7C), S1 S2 S3 E1 E2 W1 W2, all a = 0:
 //  - lengths 317, 450, 480, 70 mm, and S1 ±177°, S2 ±90°, S3 ±174°, E1 ±137°, E2 ±255°, W1 ±165°,
 //    W2 ±255°: the robot's public model by OpenBionics (modelMitsubishiPA10.m, 2015);
-//  - speeds 57, 57, 114, 114, 360, 360, 360 °/s: the maker's data sheet;
+//  - speeds 57, 57, 114, 114, 360, 360, 360 °/s: as usually quoted for the PA10-7C; the maker's
+//    sheet could not be read: compare before you trust them;
 //  - accelerations: assumed, full speed in 0.2 s; the maker publishes none.
 // Start-up only.
 #pragma once
