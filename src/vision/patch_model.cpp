@@ -148,8 +148,8 @@ Result<PhotoPatch> cut_out(const PhotoInput& input, const Intrinsics& camera) {
   return patch;
 }
 
-// What a pixel of the frame is blurred with lies within three of the photo: frames are taken from up
-// to twice as far away, and smoothed by a pixel.
+// What a pixel of the frame is blurred with lies within three of the photo: frames are taken from
+// up to twice as far away, and smoothed by a pixel.
 constexpr int kFrameBlurPx = 3;
 
 // Whether the silhouette reaches so far all around.
