@@ -70,7 +70,8 @@ class LeasePool {
   bool is_free(int slot) const { return (free_.load(std::memory_order_acquire) >> slot & 1) != 0; }
 
   int slots() const { return slots_; }
-  int free_count() const { return __builtin_popcountll(free_.load(std::memory_order_relaxed)); }
+  // Acquire: whoever sees all slots home may take the pool down.
+  int free_count() const { return __builtin_popcountll(free_.load(std::memory_order_acquire)); }
 
  private:
   friend class Lease;
