@@ -9,7 +9,7 @@ namespace gannet::bench {
 struct Options {
   bool quick = false;
   int scenes = 60;  // of the acquisition
-  int trials = 40;  // of the accuracy, for each pose and noise
+  int trials = 16;  // of the accuracy, for each pose and noise
   int turns() const { return quick ? 3 : 41; }
   int width() const { return quick ? 320 : 640; }
   int height() const { return quick ? 240 : 480; }

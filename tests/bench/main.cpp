@@ -14,7 +14,7 @@ constexpr const char* kHelp =
     "  --quick   small pictures, few turns: does it run? The figures mean nothing.\n"
     "  --only    kernels | fitness | handover | frame | acquisition | accuracy | render | jitter\n"
     "  --scenes  of the acquisition, 60 unless told; each method sees all of them\n"
-    "  --trials  of the accuracy, 40 for each pose and noise unless told\n"
+    "  --trials  of the accuracy, 16 for each pose and noise unless told\n"
     "  --json    writes the results to this file, too\n"
     "  --flags, --commit   how this was built, kept with the results\n";
 
