@@ -21,6 +21,7 @@ constexpr double kSpacingPx = 1.8;  // of a coarse level's points, in that level
 // nothing.
 constexpr double kLeastMerge = 1.6;
 constexpr double kRectanglePoints = 1500;
+constexpr int kPlaceCandidates = 24;  // of place(), about the hint
 
 double radians(double degrees) { return degrees * 3.14159265358979323846 / 180; }
 
@@ -254,7 +255,10 @@ Recognition Recogniser::recognise(const vision::PreparedFrame& frame,
   std::fill(rivals_.begin(), rivals_.end(), Rival{-1, {}, {}});
   double spent = 0;
   // The answer is scored four times more: found, refined, on the coarsest level, eye by eye.
-  const double for_search = std::max(wanted - 4, 1.0);
+  // A small search has nothing left for looking at the other tilts.
+  constexpr double kMirrorShare = 0.1;
+  const bool with_mirrored = can_follow() && mirror_cost() <= kMirrorShare * wanted;
+  const double for_search = std::max(wanted - 4 - (with_mirrored ? mirror_cost() : 0), 1.0);
   while (spent < for_search) {
     if (budget.stop != nullptr && budget.stop(budget.context)) break;
     const int level = std::min(optimiser_->level(), levels - 1);
@@ -272,7 +276,9 @@ Recognition Recogniser::recognise(const vision::PreparedFrame& frame,
   const vision::Hypothesis answer = space_.decode({best.data(), dimension});
   float score = 0;
   fitness_->score(target_, frame, 0, {&answer, 1}, {&score, 1}, scratch_[0]);
-  return finish(frame, answer, score, spent + 1);
+  Recognition out = finish(frame, answer, score, spent + 1);
+  if (with_mirrored) try_mirrored(frame, out, parallel);
+  return out;
 }
 
 bool Recogniser::can_follow() const {
@@ -284,19 +290,18 @@ bool Recogniser::can_follow() const {
 Transform<LeftCamera, Target> Recogniser::place(const vision::PreparedFrame& frame,
                                                 const Transform<LeftCamera, Target>& hint,
                                                 Parallel& parallel) {
-  constexpr int kCandidates = 24;
   constexpr std::array<float, 6> kReach = {0.02f, 0.02f, 0.03f, 0.05f, 0.05f, 0.05f};
   const int level = coarse_level();
   std::array<float, 8> genes = {};
   space_.encode(hint, genes);
-  for (std::size_t i = 0; i < kCandidates; ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kPlaceCandidates); ++i) {
     for (std::size_t k = 0; k < 6; ++k) {
       const float off = i == 0 ? 0 : kReach[k] * random_.normal_f();
       genes_[i * 6 + k] = std::clamp(genes[k] + off, 0.0f, 1.0f);
     }
   }
-  score_batch(frame, level, kCandidates, parallel);
-  const auto best = std::max_element(scores_.begin(), scores_.begin() + kCandidates);
+  score_batch(frame, level, kPlaceCandidates, parallel);
+  const auto best = std::max_element(scores_.begin(), scores_.begin() + kPlaceCandidates);
   const vision::Hypothesis& start = hypotheses_[static_cast<std::size_t>(best - scores_.begin())];
   vision::RefineOptions options;
   options.level = level;
@@ -374,7 +379,6 @@ Recognition Recogniser::follow(const vision::PreparedFrame& frame,
 // place tilted the other way, which is the wrong answer that resembles the right one most.
 void Recogniser::challenge(const vision::PreparedFrame& frame, Recognition& own) {
   constexpr float kClearly = 0.03f;
-  constexpr float kTilted = 0.1f;  // of the range of a tilt, from square
   const int level = fitness_->levels(target_) - 1;
   auto to_beat = static_cast<float>(own.coarse_fitness);
   if (watch_.best_score() > to_beat + kClearly) {
@@ -382,26 +386,65 @@ void Recogniser::challenge(const vision::PreparedFrame& frame, Recognition& own)
     own.challenged = true;
     own.challenger = space_.decode(watch_.best()).pose();
   }
-  std::array<float, 8> genes = {};
-  space_.encode(own.left_from_target, genes);
+  std::array<vision::Hypothesis, 3> mirrored;
+  const int count = mirror(own.left_from_target, mirrored);
+  for (const vision::Hypothesis& other :
+       std::span(mirrored).first(static_cast<std::size_t>(count))) {
+    const float score = score_one(frame, level, other);
+    own.evaluations += target_.cost(level);
+    if (score <= to_beat) continue;
+    to_beat = score;
+    own.challenged = true;
+    own.challenger = other.pose();
+  }
+}
+
+// The pose tilted the other way, about x, about y and about both, where it is tilted at all.
+int Recogniser::mirror(const Transform<LeftCamera, Target>& pose,
+                       std::array<vision::Hypothesis, 3>& out) const {
+  constexpr float kTilted = 0.1f;  // of the range of a tilt, from square
   constexpr std::size_t kTiltX = 3, kTiltY = 4;
+  std::array<float, 8> genes = {};
+  space_.encode(pose, genes);
+  const bool tilted_x = std::abs(genes[kTiltX] - 0.5f) >= kTilted;
+  const bool tilted_y = std::abs(genes[kTiltY] - 0.5f) >= kTilted;
+  std::size_t count = 0;
   for (const bool flip_x : {false, true}) {
     for (const bool flip_y : {false, true}) {
-      if (!flip_x && !flip_y) continue;
-      if (flip_x && std::abs(genes[kTiltX] - 0.5f) < kTilted) continue;
-      if (flip_y && std::abs(genes[kTiltY] - 0.5f) < kTilted) continue;
+      if ((!flip_x && !flip_y) || (flip_x && !tilted_x) || (flip_y && !tilted_y)) continue;
       std::array<float, 8> other = genes;
       if (flip_x) other[kTiltX] = 1 - genes[kTiltX];
       if (flip_y) other[kTiltY] = 1 - genes[kTiltY];
-      const vision::Hypothesis mirrored = space_.decode({other.data(), 6});
-      const float score = score_one(frame, level, mirrored);
-      own.evaluations += target_.cost(level);
-      if (score <= to_beat) continue;
-      to_beat = score;
-      own.challenged = true;
-      own.challenger = mirrored.pose();
+      out[count++] = space_.decode({other.data(), 6});
     }
   }
+  return static_cast<int>(count);
+}
+
+// Evaluations that try_mirrored() may spend.
+double Recogniser::mirror_cost() const {
+  const double coarsest = target_.cost(fitness_->levels(target_) - 1);
+  return 3 * ((kPlaceCandidates + 2) * target_.cost(coarse_level()) + coarsest + 3);
+}
+
+// From nothing a search may end on the wrong answer that resembles the right one most.
+void Recogniser::try_mirrored(const vision::PreparedFrame& frame, Recognition& best,
+                              Parallel& parallel) {
+  std::array<vision::Hypothesis, 3> mirrored;
+  const int count = mirror(best.left_from_target, mirrored);
+  double spent = best.evaluations;
+  for (const vision::Hypothesis& other :
+       std::span(mirrored).first(static_cast<std::size_t>(count))) {
+    std::array<float, 8> genes = {};
+    space_.encode(place(frame, other.pose(), parallel), genes);  // which keeps it inside
+    const vision::Hypothesis placed = space_.decode({genes.data(), 6});
+    const float score = score_one(frame, 0, placed);
+    spent += (kPlaceCandidates + 2) * target_.cost(coarse_level()) + 1;
+    if (static_cast<double>(score) <= best.fitness) continue;
+    best = finish(frame, placed, score, spent);
+    spent = best.evaluations;
+  }
+  best.evaluations = spent;
 }
 
 double Recogniser::found_threshold() const {

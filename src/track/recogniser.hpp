@@ -86,6 +86,10 @@ class Recogniser {
   bool elsewhere(const std::array<double, 3>& place, const vision::Hypothesis& answer) const;
   float best_rival(const vision::Hypothesis& answer) const;
   void challenge(const vision::PreparedFrame& frame, Recognition& own);
+  int mirror(const Transform<LeftCamera, Target>& pose,
+             std::array<vision::Hypothesis, 3>& out) const;
+  double mirror_cost() const;
+  void try_mirrored(const vision::PreparedFrame& frame, Recognition& best, Parallel& parallel);
   void watch(const vision::PreparedFrame& frame, const vision::Hypothesis& own, Parallel& parallel);
   float score_one(const vision::PreparedFrame& frame, int level, const vision::Hypothesis& q);
   Recognition finish(const vision::PreparedFrame& frame, const vision::Hypothesis& best,

@@ -67,8 +67,7 @@ TEST_F(InAScene, finds_the_target_from_nothing) {
 TEST_F(InAScene, finds_a_target_that_is_barely_inside_the_volume) {
   Random random(10);
   const auto either = [&](double scale) { return scale * (2 * random.uniform() - 1); };
-  int wrong = 0;  // 1 of 40 takes the mirrored tilt: the volume ends where the right one lies
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < 12; ++trial) {
     const double tilt = 28 + either(5);
     const auto truth = pose_at(0.06 + either(0.05), either(0.05), 0.6, tilt, either(20), 0);
     TrackConfig config;
@@ -78,9 +77,8 @@ TEST_F(InAScene, finds_a_target_that_is_barely_inside_the_volume) {
     const Recognition got = find(config, &truth, serial);
     ASSERT_TRUE(got.found) << trial;
     EXPECT_LE(got.left_from_target.translation.z(), config.z_max_m + 1e-6);
-    wrong += (got.left_from_target.translation - truth.translation).norm() > 0.006;
+    EXPECT_LT((got.left_from_target.translation - truth.translation).norm(), 0.006) << trial;
   }
-  EXPECT_LE(wrong, 1);
 }
 
 TEST_F(InAScene, says_not_found_where_there_is_no_target) {
