@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace gannet {
 namespace {
@@ -146,8 +147,19 @@ double Intrinsics::valid_radius() const {
 }
 
 std::optional<Vector2d> Intrinsics::project(const Vector3d& point) const {
-  if (!(point.z() > 0)) return std::nullopt;
-  const Vector2d n = point.head<2>() / point.z();
+  if (!port) return project_ray(point);
+  const std::optional<Vector3d> in_air = port->air_ray(point);
+  return in_air ? project_ray(*in_air) : std::nullopt;
+}
+
+std::optional<Line> Intrinsics::line(const Vector2d& pixel) const {
+  if (!port) return Line{Vector3d::Zero(), ray(pixel)};
+  return port->line(ray(pixel));
+}
+
+std::optional<Vector2d> Intrinsics::project_ray(const Vector3d& direction) const {
+  if (!(direction.z() > 0)) return std::nullopt;
+  const Vector2d n = direction.head<2>() / direction.z();
   if (distortion != Distortion::kNone) {
     const double r = n.norm();
     const double s = distortion == Distortion::kFisheye ? std::atan(r) : r;
@@ -215,6 +227,29 @@ void check_camera(const std::string& name, const Intrinsics& camera, Problems& p
     refuse("coefficients", "fold the image over near its middle; are order and signs right?");
 }
 
+void check_port(const std::string& name, const Intrinsics& camera, Problems& problems) {
+  const FlatPort& port = *camera.port;
+  const auto refuse = [&](const char* key, const std::string& text) {
+    problems.push_back({name + ".port." + key, text});
+  };
+  const std::size_t before = problems.size();
+  // Not norm − 1 > tolerance: a NaN must not pass.
+  if (!(std::abs(port.normal.norm() - 1) < 1e-6)) refuse("normal", "is not a unit vector");
+  if (!(port.normal.z() > 0.5)) refuse("normal", "is more than 60 degrees off the camera's axis");
+  if (!(port.distance_m >= 0 && port.distance_m <= 1)) refuse("distance_m", "is outside [0, 1] m");
+  if (!(port.thickness_m >= 0 && port.thickness_m <= 0.2))
+    refuse("thickness_m", "is outside [0, 0.2] m");
+  const auto check_index = [&](const char* key, double index) {
+    if (!(index >= 1 && index <= 2.5)) refuse(key, "is no index of refraction in [1, 2.5]");
+  };
+  check_index("air_index", port.air_index);
+  check_index("glass_index", port.glass_index);
+  check_index("water_index", port.water_index);
+  if (problems.size() > before) return;  // the next question needs the answers above
+  if (!camera.line({camera.cx, camera.cy}))
+    refuse("normal", "lets no light come to the middle of the image");
+}
+
 void check_rotation(const std::string& key, const Eigen::Quaterniond& rotation,
                     Problems& problems) {
   // Not fabs(norm − 1) > tolerance: a NaN must not pass.
@@ -229,6 +264,8 @@ std::vector<RigProblem> problems_of(const StereoRig& rig) {
   check_camera("left", rig.left, problems);
   check_camera("right", rig.right, right);
   problems.insert(problems.end(), right.begin(), right.end());
+  for (const auto& [name, camera] : {std::pair("left", &rig.left), std::pair("right", &rig.right)})
+    if (camera->port && problems.empty()) check_port(name, *camera, problems);
   check_rotation("right_from_left.rotation", rig.right_from_left.rotation, problems);
   check_rotation("hand_from_left.rotation", rig.hand_from_left.rotation, problems);
   if (rig.body_from_hand)

@@ -10,6 +10,7 @@
 
 #include "platform/base/result.hpp"
 #include "platform/base/time.hpp"
+#include "src/core/flat_port.hpp"
 #include "src/core/transform.hpp"
 
 namespace gannet {
@@ -26,12 +27,18 @@ struct Intrinsics {
   Distortion distortion = Distortion::kNone;
   // brown: k1 k2 p1 p2 k3 (Brown–Conrady, OpenCV's order); fisheye: k1 k2 k3 k4 (Kannala–Brandt)
   std::array<double, 5> coefficients = {};
-  Duration time_offset = {};  // added to the driver's stamp
+  Duration time_offset = {};     // added to the driver's stamp
+  std::optional<FlatPort> port;  // what the camera looks through, in its optical frame
 
-  // Pixel of a point in the camera's optical frame (metres); empty when it is behind the camera
-  // or beyond where the distortion model is one-to-one.
+  // Pixel of a point in the camera's optical frame (metres), through port and lens; empty when it
+  // is behind the camera or the port, or beyond where the distortion model is one-to-one.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const;
-  // Ray (x, y, 1) through a pixel; the inverse of project, by iteration.
+  // Where the points are that a pixel may show; the inverse of project. Without a port from the
+  // camera's centre; with one from the outer face of its glass, empty where no light comes from.
+  std::optional<Line> line(const Eigen::Vector2d& pixel) const;
+  // The lens alone. project_ray: pixel of a direction in air. ray: (x, y, 1) through a pixel; its
+  // inverse, by iteration.
+  std::optional<Eigen::Vector2d> project_ray(const Eigen::Vector3d& direction) const;
   Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;
   // Distorted normalised coordinates of undistorted ones.
   Eigen::Vector2d distort(const Eigen::Vector2d& normalised) const;
