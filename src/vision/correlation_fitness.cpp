@@ -22,15 +22,17 @@ void CorrelationFitness::score(const TargetPoints& target, const PreparedFrame& 
   for (std::size_t k = 0; k < hypotheses.size(); ++k) {
     const Hypothesis& q = hypotheses[k];
     if (target.unscaled) {
-      const PlaneView view = right_.ray_view(q, level, right.width, right.height, right.guard);
+      const PlaneView view =
+          right_.ray_view(q, set.reach, level, right.width, right.height, right.guard);
       scores[k] = static_cast<float>(eye_score(set, right_, frame.right(), level, view, scratch));
       continue;
     }
-    const double a = eye_score(set, left_, frame.left(), level,
-                               left_.view(q, level, left.width, left.height, left.guard), scratch);
-    const double b =
-        eye_score(set, right_, frame.right(), level,
-                  right_.view(q, level, right.width, right.height, right.guard), scratch);
+    const double a =
+        eye_score(set, left_, frame.left(), level,
+                  left_.view(q, set.reach, level, left.width, left.height, left.guard), scratch);
+    const double b = eye_score(
+        set, right_, frame.right(), level,
+        right_.view(q, set.reach, level, right.width, right.height, right.guard), scratch);
     scores[k] = static_cast<float>((a + b) / 2);
   }
 }
@@ -41,13 +43,15 @@ float CorrelationFitness::weaker_eye(const TargetPoints& target, const PreparedF
   const EyePlanes& eye = frame.right();
   const PackedPlane& plane = eye.packed[0];
   if (target.unscaled) {
-    const PlaneView view = right_.ray_view(q, 0, plane.width, plane.height, plane.guard);
+    const PlaneView view = right_.ray_view(q, set.reach, 0, plane.width, plane.height, plane.guard);
     return static_cast<float>(eye_score(set, right_, eye, 0, view, scratch));
   }
-  const double left = eye_score(set, left_, frame.left(), 0,
-                                left_.view(q, 0, plane.width, plane.height, plane.guard), scratch);
-  const double right = eye_score(
-      set, right_, eye, 0, right_.view(q, 0, plane.width, plane.height, plane.guard), scratch);
+  const double left =
+      eye_score(set, left_, frame.left(), 0,
+                left_.view(q, set.reach, 0, plane.width, plane.height, plane.guard), scratch);
+  const double right =
+      eye_score(set, right_, eye, 0,
+                right_.view(q, set.reach, 0, plane.width, plane.height, plane.guard), scratch);
   return static_cast<float>(std::min(left, right));
 }
 

@@ -7,6 +7,7 @@
 
 #include "src/core/stereo_rig.hpp"
 #include "src/vision/kernels/kernels.hpp"
+#include "src/vision/port_optics.hpp"
 
 namespace gannet::vision {
 
@@ -25,30 +26,45 @@ class CameraModel {
  public:
   CameraModel(const Intrinsics& intrinsics, const Transform<RightCamera, LeftCamera>* from_left);
 
-  // The view of the target's plane at a hypothesis, on a plane scaled by 2^−level.
-  PlaneView view(const Hypothesis& hypothesis, int level, int width, int height, int guard) const;
+  // The view of the target's plane at a hypothesis, on a plane scaled by 2^−level. reach: how far
+  // from (0, 0) points are; behind a port all of them must be beyond its glass.
+  PlaneView view(const Hypothesis& hypothesis, float reach, int level, int width, int height,
+                 int guard) const;
   // The view, in this camera, of what lies on the hypothesis's plane behind rays (x, y, 1) of the
   // left camera: the homography that the plane induces (P004 §3.2).
-  PlaneView ray_view(const Hypothesis& hypothesis, int level, int width, int height,
+  PlaneView ray_view(const Hypothesis& hypothesis, float reach, int level, int width, int height,
                      int guard) const;
 
+  bool has_port() const { return intrinsics_.port.has_value(); }
   bool has_lens() const { return intrinsics_.distortion != Distortion::kNone; }
   const LensTable& lens(int level) const { return lens_[static_cast<std::size_t>(level)]; }
 
   int project(const Kernels& kernels, const float* x, const float* y, int n, const PlaneView& view,
               int level, std::int32_t* index) const {
+    if (has_port()) {
+      return has_lens() ? kernels.project_port_lens(x, y, n, view, lens(level), index)
+                        : kernels.project_port(x, y, n, view, index);
+    }
     return has_lens() ? kernels.project_lens(x, y, n, view, lens(level), index)
                       : kernels.project(x, y, n, view, index);
   }
 
  private:
-  PlaneView finish(const std::array<double, 9>& normalised, int level, int width, int height,
-                   int guard) const;
+  // Points of a plane in this camera: (g · m) / (scale · m), m = (x, y, 1).
+  struct Plane {
+    std::array<double, 9> g;
+    std::array<double, 3> scale = {0, 0, 1};
+    std::array<double, 3> middle;  // of the points
+    float reach;
+  };
+  PlaneView finish(const Plane& plane, int level, int width, int height, int guard) const;
+  void add_port(const Plane& plane, PlaneView& view, std::array<double, 9>& g) const;
 
   Intrinsics intrinsics_;
   std::array<double, 9> rotation_ = {1, 0, 0, 0, 1, 0, 0, 0, 1};  // camera from left
   std::array<double, 3> translation_ = {0, 0, 0};
   std::array<LensTable, 4> lens_ = {};  // per level
+  PortOptics port_;
 };
 
 }  // namespace gannet::vision

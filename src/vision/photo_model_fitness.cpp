@@ -22,7 +22,7 @@ double PhotoModelFitness::eye_votes(const TargetPoints& target, const PointSet& 
                                     const CameraModel& camera, const EyePlanes& eye,
                                     const Hypothesis& hypothesis, Scratch& scratch) const {
   const int guard = eye.width * eye.height;
-  const PlaneView view = camera.view(hypothesis, 0, eye.width, eye.height, guard);
+  const PlaneView view = camera.view(hypothesis, set.reach, 0, eye.width, eye.height, guard);
   std::int32_t* index = scratch.index.data();
   camera.project(kernels_, set.x.data(), set.y.data(), set.total_padded, view, 0, index);
   VoteCounts counts;

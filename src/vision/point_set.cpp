@@ -50,7 +50,9 @@ void PointSet::assign(const std::vector<ModelPoint>& points, const Yuv& backgrou
   std::size_t next_core = 0;
   auto next_border = static_cast<std::size_t>(all_core);
   auto next_out = static_cast<std::size_t>(inside_padded);
+  float reach2 = 0;
   for (const ModelPoint& p : points) {
+    reach2 = std::max(reach2, p.x_m * p.x_m + p.y_m * p.y_m);
     const std::size_t i = is_core(p) ? next_core++ : p.inside ? next_border++ : next_out++;
     x[i] = p.x_m;
     y[i] = p.y_m;
@@ -60,6 +62,7 @@ void PointSet::assign(const std::vector<ModelPoint>& points, const Yuv& backgrou
     const bool near = hue_distance(hue[i], background_hue) <= kBackgroundNear;
     is_background[i] = p.inside && near ? 0xFF : 0;
   }
+  reach = std::sqrt(reach2);
 
   for (std::size_t c = 0; c < 3; ++c) {
     float low = std::numeric_limits<float>::max();

@@ -18,6 +18,7 @@ struct PointSet {
   int inside_padded = 0;  // S_out starts here
   int total_padded = 0;
 
+  float reach = 0;       // of any point from (0, 0)
   std::vector<float> x;  // metres on the plane (or ray coordinates)
   std::vector<float> y;
   std::vector<Yuv> colour;                  // S_out: the background's mean

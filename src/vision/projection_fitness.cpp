@@ -27,7 +27,8 @@ void ProjectionFitness::score(const TargetPoints& target, const PreparedFrame& f
   std::int32_t* index = scratch.index.data();
   const int n_out = set.total_padded - set.inside_padded;
   for (std::size_t k = 0; k < hypotheses.size(); ++k) {
-    const PlaneView view = right_.ray_view(hypotheses[k], 0, eye.width, eye.height, guard);
+    const PlaneView view =
+        right_.ray_view(hypotheses[k], set.reach, 0, eye.width, eye.height, guard);
     right_.project(kernels_, set.x.data(), set.y.data(), set.total_padded, view, 0, index);
     ProjectionCounts in, out;
     kernels_.compare(eye.hue_value, index, set.inside_padded, guard, set.hue_value.data(), in);

@@ -74,52 +74,93 @@ struct ChannelSums {
   }
 };
 
-// A part's pixels behind a lens, and how they move, for the kernels.
+// What bends the rays between a point and a pixel.
+struct Bending {
+  const Intrinsics& camera;  // at the level
+  const PortOptics* port;    // null: none
+  double radius2;            // up to which the lens is one-to-one
+
+  // Pixel of a point p told from the port's pupil, or the camera's centre; slopes: by the point's x
+  // and y. NaN where it is not seen.
+  Vector2d pixel(const Vector3d& p, Eigen::Matrix2d& slopes) const {
+    const Vector2d nowhere = Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+    Vector3d along = p;
+    Matrix<double, 3, 2> turn = Matrix<double, 3, 2>::Identity();
+    if (port != nullptr && !through_port(p, along, turn)) return nowhere;
+    if (!(along.z() > 1e-6)) return nowhere;
+    const Vector2d n = along.head<2>() / along.z();
+    if (!(n.squaredNorm() <= radius2)) return nowhere;
+    slopes = (turn.topRows<2>() - n * turn.row(2)) / along.z();
+    Vector2d bent = n;
+    if (camera.distortion != Distortion::kNone) {
+      constexpr double kStep = 1e-6;
+      bent = camera.distort(n);
+      Eigen::Matrix2d by_n;
+      for (int k = 0; k < 2; ++k) {
+        const Vector2d step = kStep * Vector2d::Unit(k);
+        by_n.col(k) = (camera.distort(n + step) - camera.distort(n - step)) / (2 * kStep);
+      }
+      slopes = by_n * slopes;
+    }
+    slopes.row(0) *= camera.fx;
+    slopes.row(1) *= camera.fy;
+    return {camera.fx * bent.x() + camera.cx, camera.fy * bent.y() + camera.cy};
+  }
+
+ private:
+  // The direction in air of a point, and how it turns.
+  bool through_port(const Vector3d& p, Vector3d& along, Matrix<double, 3, 2>& turn) const {
+    const Eigen::Map<const Vector3d> axis(port->axis().data());
+    const double w = axis.dot(p), length2 = p.squaredNorm();
+    if (!(w > port->nearest_m())) return false;
+    const double q = length2 / (w * w) - 1;
+    const PortOptics::Squared of = port->squared(q, 1 / w);
+    const double ratio2 = of.at(q, 1 / w);
+    if (!(ratio2 > 0)) return false;
+    const double v = w * std::sqrt(ratio2);
+    along = p + (v - w) * axis;
+    const Vector3d v2_slope =
+        (2 * w * ratio2 - 2 * of.by_q * length2 / w - of.by_lambda) * axis + 2 * of.by_q * p;
+    turn += axis * (v2_slope / (2 * v) - axis).head<2>().transpose();
+    return true;
+  }
+};
+
+// A part's pixels where rays are bent, and how they move, for the kernels.
 struct LensTables {
   std::array<float, kPartPoints> u, v;
   std::array<std::array<float, kPartPoints>, 4> slopes;
 
-  void fill(const Intrinsics& camera, const RefineEye& eye, const RefinePart& part, bool rays) {
-    const double radius2 = camera.valid_radius() * camera.valid_radius();
+  void fill(const Bending& bending, const RefineEye& eye, const RefinePart& part, bool rays) {
     for (int k = 0; k < part.n; ++k) {
       const auto at = static_cast<std::size_t>(k);
-      const Vector2d n =
-          normalised(eye, static_cast<double>(part.x[k]), static_cast<double>(part.y[k]), rays);
-      u[at] = v[at] = std::numeric_limits<float>::quiet_NaN();
-      for (auto& slope : slopes) slope[at] = 0;
-      if (!(n.squaredNorm() <= radius2)) continue;
-      constexpr double kStep = 1e-6;
-      const double x = n.x(), y = n.y();
-      const Vector2d by_x = camera.distort({x + kStep, y}) - camera.distort({x - kStep, y});
-      const Vector2d by_y = camera.distort({x, y + kStep}) - camera.distort({x, y - kStep});
-      const Vector2d moved = camera.distort(n);
-      u[at] = static_cast<float>(camera.fx * moved.x() + camera.cx);
-      v[at] = static_cast<float>(camera.fy * moved.y() + camera.cy);
-      const double fx = camera.fx / (2 * kStep), fy = camera.fy / (2 * kStep);
-      slopes[0][at] = static_cast<float>(fx * by_x.x());
-      slopes[1][at] = static_cast<float>(fx * by_y.x());
-      slopes[2][at] = static_cast<float>(fy * by_x.y());
-      slopes[3][at] = static_cast<float>(fy * by_y.y());
+      const Vector3d p =
+          point(eye, static_cast<double>(part.x[k]), static_cast<double>(part.y[k]), rays);
+      Eigen::Matrix2d by_point = Eigen::Matrix2d::Zero();
+      const Vector2d pixel = bending.pixel(p, by_point);
+      u[at] = static_cast<float>(pixel.x());
+      v[at] = static_cast<float>(pixel.y());
+      // By x/z and y/z, as the kernels have it.
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto row = static_cast<Eigen::Index>(i / 2), col = static_cast<Eigen::Index>(i % 2);
+        slopes[i][at] = pixel.allFinite() ? static_cast<float>(by_point(row, col) * p.z()) : 0;
+      }
     }
   }
 
  private:
-  // NaN behind the camera.
-  static Vector2d normalised(const RefineEye& eye, double x, double y, bool rays) {
+  static Vector3d point(const RefineEye& eye, double x, double y, bool rays) {
     Vector3d p;
     for (int k = 0; k < 3; ++k) {
       const float* const h = eye.h + 3 * k;
       p(k) =
           static_cast<double>(h[0]) * x + static_cast<double>(h[1]) * y + static_cast<double>(h[2]);
     }
-    if (rays) {
-      const float* const n = eye.plane;
-      p /=
-          static_cast<double>(n[0]) * x + static_cast<double>(n[1]) * y + static_cast<double>(n[2]);
-      for (int k = 0; k < 3; ++k) p(k) += static_cast<double>(eye.arm[k]);
-    }
-    if (!(p.z() > 1e-6)) return Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-    return p.head<2>() / p.z();
+    if (!rays) return p;
+    const float* const n = eye.plane;
+    p /= static_cast<double>(n[0]) * x + static_cast<double>(n[1]) * y + static_cast<double>(n[2]);
+    for (int k = 0; k < 3; ++k) p(k) += static_cast<double>(eye.arm[k]);
+    return p;
   }
 };
 
@@ -140,7 +181,7 @@ bool invert(const Matrix<double, P, P>& hessian, double factor, Matrix<double, P
 
 template <int P>
 struct Problem {
-  const StereoRig& rig;
+  const RigOptics& optics;
   const PointSet& points;
   const PreparedFrame& frame;
   const RefineOptions& options;
@@ -170,6 +211,7 @@ struct Problem {
   // camera's from the left one.
   template <class OfEye>
   bool accumulate(OfEye&& of_eye, Matrix<double, P, P>& hessian, Matrix<double, P, 1>& slope) {
+    const StereoRig& rig = optics.rig;
     const bool split = P == 6 && options.level == 0 && points.core > 0;
     Normal all, core;
     for (int at = P == 6 ? 0 : 1; at < 2; ++at) {
@@ -179,12 +221,12 @@ struct Problem {
       const auto first = 3 * static_cast<std::size_t>(at);
       RefineSums<P> sums;
       if (split) {
-        add(camera, eye, 0, points.core, 1, sums);
+        add(right, camera, eye, 0, points.core, 1, sums);
         core.add(sums, first);
         if (core_only) continue;
       }
-      add(camera, eye, split ? points.core : 0, points.inside_padded, 1, sums);
-      add(camera, eye, points.inside_padded, points.total_padded,
+      add(right, camera, eye, split ? points.core : 0, points.inside_padded, 1, sums);
+      add(right, camera, eye, points.inside_padded, points.total_padded,
           static_cast<float>(options.outside_weight), sums);
       all.add(sums, first);
     }
@@ -203,10 +245,16 @@ struct Problem {
  private:
   template <class OfEye>
   RefineEye eye_of(bool right, const Intrinsics& camera, OfEye&& of_eye) const {
+    const StereoRig& rig = optics.rig;
     const Eigen::Matrix3d rotation = right ? rig.right_from_left.rotation.toRotationMatrix()
                                            : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
     RefineEye eye = {};
     of_eye(eye, rotation, right ? rig.right_from_left.translation : Vector3d(Vector3d::Zero()));
+    if (camera.port) {  // points are told from its pupil
+      const auto& pupil = (right ? optics.right : optics.left).pupil();
+      for (std::size_t k = 0; k < 3; ++k)
+        (P == 6 ? eye.h[3 * k + 2] : eye.arm[k]) -= static_cast<float>(pupil[k]);
+    }
     set(eye.turn, Eigen::Matrix3d(rotation.transpose()));
     eye.fx = static_cast<float>(camera.fx), eye.fy = static_cast<float>(camera.fy);
     eye.cx = static_cast<float>(camera.cx), eye.cy = static_cast<float>(camera.cy);
@@ -232,16 +280,18 @@ struct Problem {
     return (by_core.diagonal().array() <= most * by_all.diagonal().array()).all();
   }
 
-  void add(const Intrinsics& camera, const RefineEye& eye, int begin, int end, float weight,
-           RefineSums<P>& sums) const {
-    const bool has_lens = camera.distortion != Distortion::kNone;
+  void add(bool right, const Intrinsics& camera, const RefineEye& eye, int begin, int end,
+           float weight, RefineSums<P>& sums) const {
+    const bool bends = camera.distortion != Distortion::kNone || camera.port;
+    const Bending bending = {camera, camera.port ? right ? &optics.right : &optics.left : nullptr,
+                             bends ? camera.valid_radius() * camera.valid_radius() : 0};
     LensTables tables;
     const LensPart lens = {tables.u.data(),
                            tables.v.data(),
                            {tables.slopes[0].data(), tables.slopes[1].data(),
                             tables.slopes[2].data(), tables.slopes[3].data()}};
     static_assert(sizeof(Yuv) == 3 * sizeof(float));
-    const int step = has_lens ? kPartPoints : end - begin;
+    const int step = bends ? kPartPoints : end - begin;
     for (int first = begin; first < end; first += step) {
       const auto k = static_cast<std::size_t>(first);
       RefinePart part = {points.x.data() + k,
@@ -250,8 +300,8 @@ struct Problem {
                          std::min(step, end - first),
                          weight,
                          nullptr};
-      if (has_lens) {
-        tables.fill(camera, eye, part, P == 3);
+      if (bends) {
+        tables.fill(bending, eye, part, P == 3);
         part.lens = &lens;
       }
       if constexpr (P == 6) {
@@ -277,10 +327,10 @@ bool solve(const Matrix<double, P, P>& hessian, const Matrix<double, P, 1>& slop
 
 }  // namespace
 
-Refinement refine_pose(const StereoRig& rig, const PointSet& points, const PreparedFrame& frame,
+Refinement refine_pose(const RigOptics& optics, const PointSet& points, const PreparedFrame& frame,
                        const Transform<LeftCamera, Target>& start, const RefineOptions& options) {
   Refinement out = {false, start, Matrix6d::Zero()};
-  Problem<6> problem = {rig, points, frame, options};
+  Problem<6> problem = {optics, points, frame, options};
   Matrix6d hessian;
   Vector6d slope, step;
   // A first pass without weights fits gains and variances for the weights of the next.
@@ -320,13 +370,13 @@ Transform<LeftCamera, Target> pose_of_plane(const Vector3d& n_over_d, const Vect
           ray / n_over_d.dot(ray)};
 }
 
-Refinement refine_plane(const StereoRig& rig, const PointSet& points, const PreparedFrame& frame,
+Refinement refine_plane(const RigOptics& optics, const PointSet& points, const PreparedFrame& frame,
                         const Transform<LeftCamera, Target>& start, const Vector3d& centre,
                         const RefineOptions& options) {
   Refinement out = {false, start, Matrix6d::Zero()};
   const Vector3d normal = start.rotation * Vector3d::UnitZ();
   Vector3d plane = normal / normal.dot(start.translation);
-  Problem<3> problem = {rig, points, frame, options};
+  Problem<3> problem = {optics, points, frame, options};
   Eigen::Matrix3d hessian;
   Vector3d slope, step;
   for (int k = 0; k <= options.iterations; ++k) {

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "src/core/pose_estimate.hpp"
-#include "src/core/stereo_rig.hpp"
 #include "src/vision/fitness.hpp"
+#include "src/vision/port_optics.hpp"
 
 namespace gannet::vision {
 
@@ -32,12 +32,12 @@ struct Refinement {
 };
 
 // Metric points on the target's plane, both eyes, six degrees of freedom.
-Refinement refine_pose(const StereoRig& rig, const PointSet& points, const PreparedFrame& frame,
+Refinement refine_pose(const RigOptics& optics, const PointSet& points, const PreparedFrame& frame,
                        const Transform<LeftCamera, Target>& start, const RefineOptions& options);
 
 // Ray points of the left image, right eye, the plane's three degrees of freedom; centre is the ray
 // (x, y, 1) through the patch's centre.
-Refinement refine_plane(const StereoRig& rig, const PointSet& points, const PreparedFrame& frame,
+Refinement refine_plane(const RigOptics& optics, const PointSet& points, const PreparedFrame& frame,
                         const Transform<LeftCamera, Target>& start, const Eigen::Vector3d& centre,
                         const RefineOptions& options);
 

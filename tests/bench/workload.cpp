@@ -46,8 +46,8 @@ void find_cells(Workload& work) {
     const vision::PackedPlane& plane = work.frame->right().packed[0];
     EyeCells out;
     out.view = work.target().unscaled
-                   ? camera.ray_view(q, 0, plane.width, plane.height, plane.guard)
-                   : camera.view(q, 0, plane.width, plane.height, plane.guard);
+                   ? camera.ray_view(q, set.reach, 0, plane.width, plane.height, plane.guard)
+                   : camera.view(q, set.reach, 0, plane.width, plane.height, plane.guard);
     out.index.resize(static_cast<std::size_t>(set.total_padded));
     out.visible = camera.project(kernels, set.x.data(), set.y.data(), set.total_padded, out.view, 0,
                                  out.index.data());

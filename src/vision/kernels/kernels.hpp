@@ -14,14 +14,18 @@ namespace gannet::vision {
 constexpr int kLanes = 16;  // points; padding of every point array
 constexpr int padded(int n) { return (n + kLanes - 1) / kLanes * kLanes; }
 
-// One camera's view of a plane: (u, v, w) = h · (x, y, 1). Without a lens table u/w and v/w are
-// pixels; with one they are normalised coordinates that the lens then moves.
+// One camera's view of a plane: (u, v, w) = h · (x, y, 1), behind a flat port + √e(x, y) · port.
+// Without a lens table u/w and v/w are pixels; with one they are normalised coordinates that the
+// lens then moves.
 struct PlaneView {
   float h[9];
   int width;  // pixels of the plane that is sampled
   int height;
   int stride;  // cells from one row to the next
   int guard;   // index of the cell that stands for "outside the image"
+  // e = (e₀x + e₁y + e₂)x + (e₃y + e₄)y + e₅; NaN: nothing can be seen.
+  float e[6] = {};
+  float port[3] = {};  // of u, v, w
 };
 
 // Distortion as a radial factor over r² with linear interpolation, plus the tangential terms.
@@ -75,6 +79,11 @@ struct Kernels {
   int (*project)(const float* x, const float* y, int n, const PlaneView& view, std::int32_t* index);
   int (*project_lens)(const float* x, const float* y, int n, const PlaneView& view,
                       const LensTable& lens, std::int32_t* index);
+  // The same behind a flat port.
+  int (*project_port)(const float* x, const float* y, int n, const PlaneView& view,
+                      std::int32_t* index);
+  int (*project_port_lens)(const float* x, const float* y, int n, const PlaneView& view,
+                           const LensTable& lens, std::int32_t* index);
 
   // cells: bytes Y U V (0 … 127) and 1; the guard is four zeros. model: blocks of four points, 16
   // bytes [Y×4 U×4 V×4 0×4], −64 … 63, 0 for padding. all_visible skips m and mm.

@@ -6,8 +6,10 @@
 namespace gannet::vision {
 namespace {
 
+template <bool kPort>
 struct View8 {
   __m256 h[9];
+  __m256 e[6], port[3];
   __m256 width, height;
   __m256i stride, guard;
 
@@ -17,11 +19,32 @@ struct View8 {
         stride(_mm256_set1_epi32(view.stride)),
         guard(_mm256_set1_epi32(view.guard)) {
     for (int k = 0; k < 9; ++k) h[k] = _mm256_set1_ps(view.h[k]);
+    if constexpr (kPort) {
+      for (int k = 0; k < 6; ++k) e[k] = _mm256_set1_ps(view.e[k]);
+      for (int k = 0; k < 3; ++k) port[k] = _mm256_set1_ps(view.port[k]);
+    }
   }
 
-  __m256 row(int k, __m256 x, __m256 y) const {
-    return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(h[k], x), _mm256_mul_ps(h[k + 1], y)),
-                         h[k + 2]);
+  static __m256 row_of(const __m256* c, __m256 x, __m256 y) {
+    return _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(c[0], x), _mm256_mul_ps(c[1], y)), c[2]);
+  }
+  __m256 row(int k, __m256 x, __m256 y) const { return row_of(h + k, x, y); }
+
+  // Where eight points of the plane are seen: u and v over w.
+  void see(__m256 x, __m256 y, __m256& u, __m256& v, __m256& w) const {
+    w = row(6, x, y);
+    u = row(0, x, y);
+    v = row(3, x, y);
+    if constexpr (kPort) {
+      const __m256 by_x = _mm256_mul_ps(row_of(e, x, y), x);
+      const __m256 by_y = _mm256_mul_ps(_mm256_add_ps(_mm256_mul_ps(e[3], y), e[4]), y);
+      const __m256 r = _mm256_sqrt_ps(_mm256_add_ps(by_x, _mm256_add_ps(by_y, e[5])));
+      u = _mm256_add_ps(u, _mm256_mul_ps(r, port[0]));
+      v = _mm256_add_ps(v, _mm256_mul_ps(r, port[1]));
+      w = _mm256_add_ps(w, _mm256_mul_ps(r, port[2]));
+    }
+    u = _mm256_div_ps(u, w);
+    v = _mm256_div_ps(v, w);
   }
 
   // Cells of eight pixel positions; inside gets a bit mask of the points that have one.
@@ -42,16 +65,16 @@ struct View8 {
   }
 };
 
+template <bool kPort>
 int project(const float* x, const float* y, int n, const PlaneView& view, std::int32_t* index) {
-  const View8 v8(view);
+  const View8<kPort> v8(view);
   const __m256 all = _mm256_castsi256_ps(_mm256_set1_epi32(-1));
   int count = 0;
   for (int i = 0; i < n; i += 8) {
     const __m256 xs = _mm256_loadu_ps(x + i);
     const __m256 ys = _mm256_loadu_ps(y + i);
-    const __m256 w = v8.row(6, xs, ys);
-    const __m256 u = _mm256_div_ps(v8.row(0, xs, ys), w);
-    const __m256 v = _mm256_div_ps(v8.row(3, xs, ys), w);
+    __m256 u, v, w;
+    v8.see(xs, ys, u, v, w);
     int inside = 0;
     const __m256i cells = v8.cells(u, v, w, all, inside);
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(index + i), cells);
@@ -60,9 +83,10 @@ int project(const float* x, const float* y, int n, const PlaneView& view, std::i
   return count;
 }
 
+template <bool kPort>
 int project_lens(const float* x, const float* y, int n, const PlaneView& view,
                  const LensTable& lens, std::int32_t* index) {
-  const View8 v8(view);
+  const View8<kPort> v8(view);
   const __m256 r2_max = _mm256_set1_ps(lens.r2_max);
   const __m256 scale = _mm256_set1_ps(lens.scale);
   const __m256 p1 = _mm256_set1_ps(lens.p1);
@@ -72,9 +96,8 @@ int project_lens(const float* x, const float* y, int n, const PlaneView& view,
   for (int i = 0; i < n; i += 8) {
     const __m256 xs = _mm256_loadu_ps(x + i);
     const __m256 ys = _mm256_loadu_ps(y + i);
-    const __m256 w = v8.row(6, xs, ys);
-    const __m256 a = _mm256_div_ps(v8.row(0, xs, ys), w);
-    const __m256 b = _mm256_div_ps(v8.row(3, xs, ys), w);
+    __m256 a, b, w;
+    v8.see(xs, ys, a, b, w);
     const __m256 aa = _mm256_mul_ps(a, a);
     const __m256 bb = _mm256_mul_ps(b, b);
     const __m256 r2 = _mm256_add_ps(aa, bb);
@@ -251,6 +274,8 @@ void compare(const std::uint16_t* cells, const std::int32_t* index, int n, int g
 
 }  // namespace
 
-const Kernels kAvx2Kernels = {"avx2", project, project_lens, correlate, vote, compare};
+const Kernels kAvx2Kernels = {
+    "avx2", project<false>, project_lens<false>, project<true>, project_lens<true>, correlate,
+    vote,   compare};
 
 }  // namespace gannet::vision

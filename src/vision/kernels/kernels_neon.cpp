@@ -19,10 +19,29 @@ struct View4 {
         stride(vdupq_n_s32(v.stride)),
         guard(vdupq_n_s32(v.guard)) {}
 
-  float32x4_t row(int k, float32x4_t x, float32x4_t y) const {
-    return vaddq_f32(
-        vaddq_f32(vmulq_f32(vdupq_n_f32(view.h[k]), x), vmulq_f32(vdupq_n_f32(view.h[k + 1]), y)),
-        vdupq_n_f32(view.h[k + 2]));
+  static float32x4_t row(const float* c, float32x4_t x, float32x4_t y) {
+    return vaddq_f32(vaddq_f32(vmulq_f32(vdupq_n_f32(c[0]), x), vmulq_f32(vdupq_n_f32(c[1]), y)),
+                     vdupq_n_f32(c[2]));
+  }
+
+  // Where four points of the plane are seen: u and v over w.
+  template <bool kPort>
+  void see(float32x4_t x, float32x4_t y, float32x4_t& u, float32x4_t& v, float32x4_t& w) const {
+    w = row(view.h + 6, x, y);
+    u = row(view.h, x, y);
+    v = row(view.h + 3, x, y);
+    if constexpr (kPort) {
+      const float* const e = view.e;
+      const float32x4_t by_x = vmulq_f32(row(e, x, y), x);
+      const float32x4_t by_y =
+          vmulq_f32(vaddq_f32(vmulq_f32(vdupq_n_f32(e[3]), y), vdupq_n_f32(e[4])), y);
+      const float32x4_t r = vsqrtq_f32(vaddq_f32(by_x, vaddq_f32(by_y, vdupq_n_f32(e[5]))));
+      u = vaddq_f32(u, vmulq_f32(r, vdupq_n_f32(view.port[0])));
+      v = vaddq_f32(v, vmulq_f32(r, vdupq_n_f32(view.port[1])));
+      w = vaddq_f32(w, vmulq_f32(r, vdupq_n_f32(view.port[2])));
+    }
+    u = vdivq_f32(u, w);
+    v = vdivq_f32(v, w);
   }
 
   // Cells of four pixel positions; adds how many are inside.
@@ -41,6 +60,7 @@ struct View4 {
   }
 };
 
+template <bool kPort>
 int project(const float* x, const float* y, int n, const PlaneView& view, std::int32_t* index) {
   const View4 v4(view);
   const uint32x4_t all = vdupq_n_u32(0xFFFFFFFFu);
@@ -48,9 +68,8 @@ int project(const float* x, const float* y, int n, const PlaneView& view, std::i
   for (int i = 0; i < n; i += 4) {
     const float32x4_t xs = vld1q_f32(x + i);
     const float32x4_t ys = vld1q_f32(y + i);
-    const float32x4_t w = v4.row(6, xs, ys);
-    const float32x4_t u = vdivq_f32(v4.row(0, xs, ys), w);
-    const float32x4_t v = vdivq_f32(v4.row(3, xs, ys), w);
+    float32x4_t u, v, w;
+    v4.see<kPort>(xs, ys, u, v, w);
     vst1q_s32(index + i, v4.cells(u, v, w, all, inside));
   }
   return inside;
@@ -62,6 +81,7 @@ inline float32x4_t look_up(const float* table, int32x4_t at) {
   return vld1q_f32(values);
 }
 
+template <bool kPort>
 int project_lens(const float* x, const float* y, int n, const PlaneView& view,
                  const LensTable& lens, std::int32_t* index) {
   const View4 v4(view);
@@ -72,9 +92,8 @@ int project_lens(const float* x, const float* y, int n, const PlaneView& view,
   for (int i = 0; i < n; i += 4) {
     const float32x4_t xs = vld1q_f32(x + i);
     const float32x4_t ys = vld1q_f32(y + i);
-    const float32x4_t w = v4.row(6, xs, ys);
-    const float32x4_t a = vdivq_f32(v4.row(0, xs, ys), w);
-    const float32x4_t b = vdivq_f32(v4.row(3, xs, ys), w);
+    float32x4_t a, b, w;
+    v4.see<kPort>(xs, ys, a, b, w);
     const float32x4_t aa = vmulq_f32(a, a);
     const float32x4_t bb = vmulq_f32(b, b);
     const float32x4_t r2 = vaddq_f32(aa, bb);
@@ -227,6 +246,8 @@ void compare(const std::uint16_t* cells, const std::int32_t* index, int n, int g
 
 }  // namespace
 
-const Kernels kNeonKernels = {"neon", project, project_lens, correlate, vote, compare};
+const Kernels kNeonKernels = {
+    "neon", project<false>, project_lens<false>, project<true>, project_lens<true>, correlate,
+    vote,   compare};
 
 }  // namespace gannet::vision

@@ -1,4 +1,5 @@
 // The truth: plain loops in a fixed order. Every other variant equals this bit for bit.
+#include <cmath>
 #include <cstdlib>
 
 #include "src/vision/kernels/kernels.hpp"
@@ -16,27 +17,44 @@ inline std::int32_t cell_of(float u, float v, float w, const PlaneView& view) {
                 : view.guard;
 }
 
-int project(const float* x, const float* y, int n, const PlaneView& view, std::int32_t* index) {
+// Where a point of the plane is seen: u and v over w.
+struct Seen {
+  float u, v, w;
+};
+
+template <bool kPort>
+inline Seen see(const PlaneView& view, float x, float y) {
   const float* h = view.h;
+  float w = (h[6] * x + h[7] * y) + h[8];
+  float u = (h[0] * x + h[1] * y) + h[2];
+  float v = (h[3] * x + h[4] * y) + h[5];
+  if constexpr (kPort) {
+    const float* e = view.e;
+    const float r = std::sqrt(((e[0] * x + e[1] * y) + e[2]) * x + ((e[3] * y + e[4]) * y + e[5]));
+    u = u + r * view.port[0];
+    v = v + r * view.port[1];
+    w = w + r * view.port[2];
+  }
+  return {u / w, v / w, w};
+}
+
+template <bool kPort>
+int project(const float* x, const float* y, int n, const PlaneView& view, std::int32_t* index) {
   int inside = 0;
   for (int i = 0; i < n; ++i) {
-    const float w = (h[6] * x[i] + h[7] * y[i]) + h[8];
-    const float u = ((h[0] * x[i] + h[1] * y[i]) + h[2]) / w;
-    const float v = ((h[3] * x[i] + h[4] * y[i]) + h[5]) / w;
+    const auto [u, v, w] = see<kPort>(view, x[i], y[i]);
     index[i] = cell_of(u, v, w, view);
     inside += index[i] != view.guard;
   }
   return inside;
 }
 
+template <bool kPort>
 int project_lens(const float* x, const float* y, int n, const PlaneView& view,
                  const LensTable& lens, std::int32_t* index) {
-  const float* h = view.h;
   int inside = 0;
   for (int i = 0; i < n; ++i) {
-    const float w = (h[6] * x[i] + h[7] * y[i]) + h[8];
-    const float a = ((h[0] * x[i] + h[1] * y[i]) + h[2]) / w;
-    const float b = ((h[3] * x[i] + h[4] * y[i]) + h[5]) / w;
+    const auto [a, b, w] = see<kPort>(view, x[i], y[i]);
     const float r2 = a * a + b * b;
     const bool valid = r2 <= lens.r2_max;
     const float s = valid ? r2 * lens.scale : 0.0f;
@@ -119,6 +137,8 @@ void compare(const std::uint16_t* cells, const std::int32_t* index, int n, int g
 
 }  // namespace
 
-const Kernels kScalarKernels = {"scalar", project, project_lens, correlate, vote, compare};
+const Kernels kScalarKernels = {
+    "scalar", project<false>, project_lens<false>, project<true>, project_lens<true>, correlate,
+    vote,     compare};
 
 }  // namespace gannet::vision

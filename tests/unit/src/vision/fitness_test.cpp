@@ -48,7 +48,7 @@ TEST_P(Lens, float_kernels_sample_the_reference_pixel_for_999_points_of_1000) {
       std::vector<std::int32_t> index(x.size());
       const int guard = 320 * 240;
       camera.project(kScalarKernels, x.data(), y.data(), static_cast<int>(x.size()),
-                     camera.view(q, 0, 320, 240, guard), 0, index.data());
+                     camera.view(q, 0.1f, 0, 320, 240, guard), 0, index.data());
       for (std::size_t i = 0; i < x.size(); ++i) {
         const auto pixel = reference::pixel_of(rig, is_left, pose, static_cast<double>(x[i]),
                                                static_cast<double>(y[i]), false);

@@ -53,6 +53,10 @@ struct Data {
     view.h[6] = 4 * (random.uniform_f() - 0.5f);
     view.h[7] = 4 * (random.uniform_f() - 0.5f);
     view.h[8] = random.uniform_f();  // near zero: some points fall behind the camera
+    for (float& e : view.e) e = random.uniform_f() - 0.3f;  // some roots are of negative numbers
+    view.port[0] = 20;
+    view.port[1] = 10;
+    view.port[2] = 1;
   }
 
   int n;
@@ -122,6 +126,30 @@ TEST_P(KernelVariant, projects_through_a_lens_to_the_same_cells) {
     EXPECT_EQ(expected, got);
     EXPECT_EQ(a, b);
   });
+}
+
+TEST_P(KernelVariant, projects_through_a_port_to_the_same_cells) {
+  const LensTable lens = some_lens();
+  int seen = 0;
+  for_many([&](Data d, int shift) {
+    std::vector<std::int32_t> expected(static_cast<std::size_t>(d.n)), got = expected;
+    const float* const x = d.x.data() + shift;
+    const float* const y = d.y.data() + shift;
+    int a = kScalarKernels.project_port(x, y, d.n, d.view, expected.data());
+    int b = GetParam()->project_port(x, y, d.n, d.view, got.data());
+    EXPECT_EQ(expected, got);
+    EXPECT_EQ(a, b);
+    seen += a;
+    for (float& h : d.view.h) h *= 0.02f;
+    for (float& n : d.view.port) n *= 0.02f;
+    d.view.h[8] = 1;
+    a = kScalarKernels.project_port_lens(x, y, d.n, d.view, lens, expected.data());
+    b = GetParam()->project_port_lens(x, y, d.n, d.view, lens, got.data());
+    EXPECT_EQ(expected, got);
+    EXPECT_EQ(a, b);
+    seen += a;
+  });
+  EXPECT_GT(seen, 500);
 }
 
 TEST_P(KernelVariant, sums_the_same) {
