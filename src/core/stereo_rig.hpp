@@ -27,8 +27,9 @@ struct Intrinsics {
   Distortion distortion = Distortion::kNone;
   // brown: k1 k2 p1 p2 k3 (Brown–Conrady, OpenCV's order); fisheye: k1 k2 k3 k4 (Kannala–Brandt)
   std::array<double, 5> coefficients = {};
-  Duration time_offset = {};     // added to the driver's stamp
-  std::optional<FlatPort> port;  // what the camera looks through, in its optical frame
+  Duration time_offset = {};  // added to the driver's stamp
+  std::optional<FlatPort> port =
+      std::nullopt;  // what the camera looks through, in its optical frame
 
   // Pixel of a point in the camera's optical frame (metres), through port and lens; empty when it
   // is behind the camera or the port, or beyond where the distortion model is one-to-one.
