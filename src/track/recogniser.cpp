@@ -47,6 +47,7 @@ Recogniser::Recogniser(const TrackConfig& config, const StereoRig& rig, TargetKi
       rig_(rig),
       kind_(kind),
       space_(rig, volume_of(config)),
+      relief_(kind == TargetKind::kModel && config.relief ? max_points() : 0),
       genes_(kBatch * 8),
       hypotheses_(kBatch),
       scores_(kBatch) {
@@ -129,7 +130,9 @@ bool Recogniser::set_model(const vision::PatchModel& model) {
   const double area = model.spacing_m * model.spacing_m * model.inside_count;
   const double middle = std::sqrt(config_.z_min_m * config_.z_max_m);
   optimiser_->reset(static_cast<std::uint64_t>(config_.seed));
-  return assign_levels(std::sqrt(area) * f / config_.z_max_m, spacing_ * f / middle);
+  if (!assign_levels(std::sqrt(area) * f / config_.z_max_m, spacing_ * f / middle)) return false;
+  if (config_.relief) relief_.reset(target_.level[0], spacing_, model.eye_m);
+  return true;
 }
 
 bool Recogniser::set_rectangle(const vision::Rectangle& r, const vision::PreparedFrame& frame) {
@@ -370,7 +373,7 @@ Recognition Recogniser::follow(const vision::PreparedFrame& frame,
     watch(frame, start, parallel);
     spent += config_.watch_candidates * target_.cost(fitness_->levels(target_) - 1);
   }
-  Recognition out = finish(frame, start, score_one(frame, 0, start), spent);
+  Recognition out = finish(frame, start, score_one(frame, 0, start), spent, true);
   if (with_watch) challenge(frame, out);
   return out;
 }
@@ -456,7 +459,7 @@ double Recogniser::found_threshold() const {
 }
 
 Recognition Recogniser::finish(const vision::PreparedFrame& frame, const vision::Hypothesis& best,
-                               float best_score, double evaluations) {
+                               float best_score, double evaluations, bool locked) {
   Recognition out;
   out.left_from_target = best.pose();
   out.fitness = static_cast<double>(best_score);
@@ -514,6 +517,14 @@ Recognition Recogniser::finish(const vision::PreparedFrame& frame, const vision:
               weaker_eye >= kEyeShare * found_threshold();
   out.reason = out.found ? TrackReason::kNone : TrackReason::kNotFound;
   out.size_m = size_m_;
+  if (config_.relief && !target_.unscaled && out.refined) {
+    const vision::Refinement solid =
+        relief_.refine(rig_, points, frame, refined, options, locked && out.found);
+    if (space_.contains(solid.left_from_target)) {
+      out.left_from_target = solid.left_from_target;
+      out.covariance = solid.covariance;
+    }
+  }
   if (target_.unscaled) {
     const Eigen::Vector3d n = out.left_from_target.rotation * Eigen::Vector3d::UnitZ();
     const double d = n.dot(out.left_from_target.translation);
@@ -563,6 +574,7 @@ bool Recogniser::to_model(const Transform<LeftCamera, Target>& pose,
     ++out.inside_count;
   }
   out.spacing_m = spacing_ * pose.translation.z();
+  out.eye_m = target_from_left.translation;
   out.background = background_;
   out.background_hue = target_.background_hue;
   return out.inside_count >= 16;

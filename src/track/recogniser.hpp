@@ -14,6 +14,7 @@
 #include "platform/base/result.hpp"
 #include "src/search/optimiser.hpp"
 #include "src/track/recognition.hpp"
+#include "src/track/relief.hpp"
 #include "src/track/rival_watch.hpp"
 #include "src/track/search_space.hpp"
 #include "src/track/track_config.hpp"
@@ -93,7 +94,7 @@ class Recogniser {
   void watch(const vision::PreparedFrame& frame, const vision::Hypothesis& own, Parallel& parallel);
   float score_one(const vision::PreparedFrame& frame, int level, const vision::Hypothesis& q);
   Recognition finish(const vision::PreparedFrame& frame, const vision::Hypothesis& best,
-                     float best_score, double evaluations);
+                     float best_score, double evaluations, bool locked = false);
   double found_threshold() const;
 
   const TrackConfig config_;
@@ -121,6 +122,7 @@ class Recogniser {
   };
   static constexpr int kRivalCells = 16;
   std::vector<Rival> rivals_;
+  Relief relief_;
   RivalWatch watch_;
   bool watch_is_seeded_ = false;
   Random random_;                   // of place()

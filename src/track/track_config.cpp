@@ -37,6 +37,10 @@ void describe(Visitor& v, TrackConfig& c) {
           {.min = 0,
            .max = 1,
            .help = "The same for the papers' votes, as a share of a perfect score."});
+  v.field(
+      "relief", c.relief,
+      {.help = "While a model is locked, find by stereo what of it is not flat, and measure with "
+               "that where it fits better."});
   v.field("z_min_m", c.z_min_m,
           {.min = 0.01, .max = 1000, .unit = "m", .help = "Nearest depth that is searched."});
   v.field("z_max_m", c.z_max_m,

@@ -19,6 +19,7 @@ struct TrackConfig {
   // Least correlation plus lead over the best place elsewhere that counts as found: true poses
   // of textured creatures gave 0.6 and more, the best wrong ones 0.5 and less.
   double found_fitness = 0.55;
+  bool relief = true;
   double found_votes = 0.3;  // for vote fitnesses: least share of a perfect score
   double z_min_m = 0.4;
   double z_max_m = 1.0;

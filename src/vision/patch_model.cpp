@@ -170,6 +170,7 @@ Result<PatchModel> make_patch_model(const PhotoPatch& photo, const BuildOptions&
   PatchModel model;
   model.name = photo.name;
   model.size_m = photo.size_m;
+  model.eye_m = {0, 0, -photo.distance_m};
   model.background = photo.background;
   model.background_hue = photo.background_hue;
   model.spacing_m = std::sqrt(inside * pixel_x * pixel_y / options.inside_points);

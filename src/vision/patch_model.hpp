@@ -42,7 +42,8 @@ struct PatchModel {
   std::string name;
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  // bounding box of S_in
   double spacing_m = 0;                              // of the grid of points
-  std::vector<ModelPoint> points;                    // S_in first
+  Eigen::Vector3d eye_m = {0, 0, -1e6};  // where the photo was taken from, in the target's frame
+  std::vector<ModelPoint> points;        // S_in first
   int inside_count = 0;
   Yuv background;                   // mean of the background
   std::uint8_t background_hue = 0;  // chroma-weighted circular mean, 256 steps

@@ -21,6 +21,7 @@ void PointSet::reserve(int max_points) {
   const auto n = static_cast<std::size_t>(padded(max_points) + 2 * kLanes);
   x.reserve(n);
   y.reserve(n);
+  z.reserve(n);
   colour.reserve(n);
   hue.reserve(n);
   is_background.reserve(n);
@@ -38,6 +39,7 @@ void PointSet::assign(const std::vector<ModelPoint>& points, const Yuv& backgrou
   const auto n = static_cast<std::size_t>(total_padded);
   x.assign(n, std::numeric_limits<float>::quiet_NaN());
   y.assign(n, std::numeric_limits<float>::quiet_NaN());
+  z.clear();
   colour.assign(n, Yuv{});
   hue.assign(n, 0);
   is_background.assign(n, 0);

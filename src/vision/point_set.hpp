@@ -21,7 +21,8 @@ struct PointSet {
   float reach = 0;       // of any point from (0, 0)
   std::vector<float> x;  // metres on the plane (or ray coordinates)
   std::vector<float> y;
-  std::vector<Yuv> colour;                  // S_out: the background's mean
+  std::vector<float> z;     // empty: flat; else metres behind the plane, for the refinement alone
+  std::vector<Yuv> colour;  // S_out: the background's mean
   std::vector<std::uint8_t> hue;            // S_in
   std::vector<std::uint8_t> is_background;  // 0xFF where S_in's hue is near the background's
   std::vector<std::uint16_t> hue_value;     // all points, their own

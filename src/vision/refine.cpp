@@ -50,10 +50,7 @@ struct ChannelSums {
     }
   }
 
-  struct Fit {
-    double gain = 0, offset = 0, variance = 0;
-    bool ok = false;
-  };
+  using Fit = Refinement::Look;
   Fit fit() const {
     const double det = w * mm - m * m;
     if (w < 8 || det <= 1e-6 * w * mm) return {};
@@ -134,8 +131,8 @@ struct LensTables {
   void fill(const Bending& bending, const RefineEye& eye, const RefinePart& part, bool rays) {
     for (int k = 0; k < part.n; ++k) {
       const auto at = static_cast<std::size_t>(k);
-      const Vector3d p =
-          point(eye, static_cast<double>(part.x[k]), static_cast<double>(part.y[k]), rays);
+      const Vector3d p = point(eye, static_cast<double>(part.x[k]), static_cast<double>(part.y[k]),
+                               part.z == nullptr ? 0 : static_cast<double>(part.z[k]), rays);
       Eigen::Matrix2d by_point = Eigen::Matrix2d::Zero();
       const Vector2d pixel = bending.pixel(p, by_point);
       u[at] = static_cast<float>(pixel.x());
@@ -149,14 +146,17 @@ struct LensTables {
   }
 
  private:
-  static Vector3d point(const RefineEye& eye, double x, double y, bool rays) {
+  static Vector3d point(const RefineEye& eye, double x, double y, double z, bool rays) {
     Vector3d p;
     for (int k = 0; k < 3; ++k) {
       const float* const h = eye.h + 3 * k;
       p(k) =
           static_cast<double>(h[0]) * x + static_cast<double>(h[1]) * y + static_cast<double>(h[2]);
     }
-    if (!rays) return p;
+    if (!rays) {
+      for (int k = 0; k < 3; ++k) p(k) += static_cast<double>(eye.deep[k]) * z;
+      return p;
+    }
     const float* const n = eye.plane;
     p /= static_cast<double>(n[0]) * x + static_cast<double>(n[1]) * y + static_cast<double>(n[2]);
     for (int k = 0; k < 3; ++k) p(k) += static_cast<double>(eye.arm[k]);
@@ -186,8 +186,8 @@ struct Problem {
   const PreparedFrame& frame;
   const RefineOptions& options;
   const RefineKernels& kernels = refine_kernels();
-  using Fits = std::array<typename ChannelSums<P>::Fit, 6>;
-  Fits fits = {};
+  using Fits = std::array<Refinement::Look, 6>;
+  Fits fits = {}, core_fits = {};
   bool core_only = false;
 
   struct Normal {
@@ -235,6 +235,7 @@ struct Problem {
     weighted = true;
     const Normal& normal = core_only ? core : all;
     fits = normal.fits;
+    core_fits = split ? core.fits : all.fits;
     hessian = normal.hessian;
     slope = normal.slope;
     return normal.channels > 0;
@@ -296,6 +297,7 @@ struct Problem {
       const auto k = static_cast<std::size_t>(first);
       RefinePart part = {points.x.data() + k,
                          points.y.data() + k,
+                         points.z.empty() ? nullptr : points.z.data() + k,
                          &points.colour.data()[k].y,
                          std::min(step, end - first),
                          weight,
@@ -329,7 +331,7 @@ bool solve(const Matrix<double, P, P>& hessian, const Matrix<double, P, 1>& slop
 
 Refinement refine_pose(const RigOptics& optics, const PointSet& points, const PreparedFrame& frame,
                        const Transform<LeftCamera, Target>& start, const RefineOptions& options) {
-  Refinement out = {false, start, Matrix6d::Zero()};
+  Refinement out = {false, start, Matrix6d::Zero(), {}};
   Problem<6> problem = {optics, points, frame, options};
   Matrix6d hessian;
   Vector6d slope, step;
@@ -340,12 +342,13 @@ Refinement refine_pose(const RigOptics& optics, const PointSet& points, const Pr
       Eigen::Matrix3d h = r * rotation;
       h.col(2) = r * out.left_from_target.translation + t;
       set(eye.h, h);
-      set(eye.arm, Vector3d(rotation.col(0)));
-      set(eye.arm + 3, Vector3d(rotation.col(1)));
+      set(eye.deep, Vector3d(r * rotation.col(2)));
+      for (int axis = 0; axis < 3; ++axis) set(eye.arm + 3 * axis, Vector3d(rotation.col(axis)));
     };
     if (!problem.accumulate(of_eye, hessian, slope) || !solve<6>(hessian, slope, step)) {
       return out;
     }
+    out.looks = problem.core_fits;
     const double sigmas2 = step.dot(hessian * step) / options.shared_noise;
     if (k == options.iterations) break;
     // A step is at most a few pixels: further away the gradients say nothing.
@@ -373,7 +376,7 @@ Transform<LeftCamera, Target> pose_of_plane(const Vector3d& n_over_d, const Vect
 Refinement refine_plane(const RigOptics& optics, const PointSet& points, const PreparedFrame& frame,
                         const Transform<LeftCamera, Target>& start, const Vector3d& centre,
                         const RefineOptions& options) {
-  Refinement out = {false, start, Matrix6d::Zero()};
+  Refinement out = {false, start, Matrix6d::Zero(), {}};
   const Vector3d normal = start.rotation * Vector3d::UnitZ();
   Vector3d plane = normal / normal.dot(start.translation);
   Problem<3> problem = {optics, points, frame, options};

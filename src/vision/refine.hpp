@@ -4,6 +4,8 @@
 // (Jᵀ W J)⁻¹ over both images. RT safe (fixed-size Eigen, no heap).
 #pragma once
 
+#include <array>
+
 #include "src/core/pose_estimate.hpp"
 #include "src/vision/fitness.hpp"
 #include "src/vision/port_optics.hpp"
@@ -26,9 +28,19 @@ struct RefineOptions {
 };
 
 struct Refinement {
+  // What a channel of an eye looks like: image = gain · model + offset, both less 128, and the
+  // variance of what is left.
+  struct Look {
+    double gain = 0, offset = 0, variance = 0;
+    bool ok = false;
+  };
+
   bool ok = false;  // converged to a place with a full-rank covariance
   Transform<LeftCamera, Target> left_from_target;
   Matrix6d covariance = Matrix6d::Zero();  // order as PoseEstimate
+  // Y U V of the left eye, then of the right one; over the points away from the outline where there
+  // are any.
+  std::array<Look, 6> looks;
 };
 
 // Metric points on the target's plane, both eyes, six degrees of freedom.

@@ -65,6 +65,7 @@ struct FlatScene {
   Texture ground{12, 0.11, 12};
   double ground_z = 1.4;
   double noise = 1.0;  // grey levels
+  double bulge_m = 0;  // of the target's middle, towards who looks at it square: a dome
 
   FlatScene() {
     for (Intrinsics* camera : {&rig.left, &rig.right}) {
@@ -82,6 +83,12 @@ struct FlatScene {
   bool covers(double x, double y) const {
     const double a = 2 * x / size_m.x(), b = 2 * y / size_m.y();
     return a * a + b * b <= 1;
+  }
+
+  // z of the target's surface, in its frame.
+  double dome(double x, double y) const {
+    const double a = 2 * x / size_m.x(), b = 2 * y / size_m.y();
+    return -bulge_m * std::max(0.0, 1 - a * a - b * b);
   }
 
   // What an ideal camera measures: Y, U, V of each pixel, row by row.
@@ -158,8 +165,12 @@ struct FlatScene {
     const auto target_from_left = pose.inverse();
     const Eigen::Vector3d o = target_from_left(origin);
     const Eigen::Vector3d d = target_from_left.rotation * ray;
-    const Eigen::Vector3d hit = o - d * (o.z() / d.z());
-    x = hit.x(), y = hit.y();
+    double z = 0;
+    for (int i = 0; i < (bulge_m == 0 ? 1 : 12); ++i) {  // converges for what is flatter than steep
+      const Eigen::Vector3d hit = o + d * ((z - o.z()) / d.z());
+      x = hit.x(), y = hit.y();
+      z = dome(x, y);
+    }
     return o.z() / d.z() < 0 && covers(x, y);
   }
 

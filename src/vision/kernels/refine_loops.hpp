@@ -57,6 +57,11 @@ inline __attribute__((always_inline)) void see(const RefineEye& eye, const Refin
   Floats camera[3];
   Floats scale = all(1.0f);
   for (int k = 0; k < 3; ++k) camera[k] = (x * h[3 * k] + y * h[3 * k + 1]) + h[3 * k + 2];
+  const bool flat = part.z == nullptr;
+  const Floats z = flat ? all(0.0f) : load(part.z + i);
+  if (kParameters == 6 && !flat) {
+    for (int k = 0; k < 3; ++k) camera[k] = camera[k] + z * eye.deep[k];
+  }
   if constexpr (kParameters == 3) {
     // Of a ray m: p = m / (plane · m); h holds the eye's rotation, its translation is in arm.
     out.inverse_depth = (x * eye.plane[0] + y * eye.plane[1]) + eye.plane[2];
@@ -98,7 +103,11 @@ inline __attribute__((always_inline)) void see(const RefineEye& eye, const Refin
     out.point[1] = only(ok, y);
     out.point[2] = only(ok, all(1.0f));
   } else {
-    for (int k = 0; k < 3; ++k) out.point[k] = only(ok, x * eye.arm[k] + y * eye.arm[3 + k]);
+    for (int k = 0; k < 3; ++k) {
+      Floats arm = x * eye.arm[k] + y * eye.arm[3 + k];
+      if (!flat) arm = arm + z * eye.arm[6 + k];
+      out.point[k] = only(ok, arm);
+    }
   }
 }
 

@@ -17,10 +17,11 @@ struct ChannelFit {
   float weight_scale = 0;  // Cauchy: weight / (1 + residual² · weight_scale); 0: no weighing
 };
 
-// One eye at one pose. Points are m = (x, y, 1); camera = h · m.
+// One eye at one pose. Points are m = (x, y, 1); camera = h · m, and z · deep where there is a z.
 struct RefineEye {
   float h[9];      // rows: X, Y, Z in the camera's axes
-  float arm[6];    // columns of the lever arm x · a + y · b in the left camera's axes: a, then b
+  float deep[3];   // away from the plane
+  float arm[9];    // columns of the lever arm x · a + y · b + z · c in the left camera's axes
   float turn[9];   // left from this camera, row by row
   float plane[3];  // unscaled targets: n / d of the plane, for which m is a left camera's ray
   float fx, fy, cx, cy;
@@ -41,6 +42,7 @@ struct LensPart {
 struct RefinePart {
   const float* x;
   const float* y;
+  const float* z;       // of points that lie off the plane; null: flat
   const float* colour;  // Y U V interleaved
   int n;
   float weight;
