@@ -56,6 +56,18 @@ check 'the map is written' test -s map.png
 check 'its best place is the target' awk -F, 'NR > 1 && (best == "" || $3 > best) { best = $3; x = $1; y = $2 }
   END { exit !(x > -0.011 && x < 0.011 && y > -0.011 && y < 0.011) }' map.csv
 
+mkdir -p models && cp disc.gannet models && echo 'no model' >models/torn.gannet
+"$gannet" model list models >out.txt 2>err.txt
+check 'model list passes over what is no model' test $? -eq 1
+check 'and names it' grep -q 'torn.gannet' err.txt
+check 'and lists the others' grep -Eq '^disc +14[0-9]\.[0-9] +14[0-9]\.[0-9] +models/disc.gannet' out.txt
+"$gannet" model list nowhere >out.txt 2>err.txt
+check 'model list refuses a folder that is not there' test $? -eq 2
+"$gannet" model show disc.gannet --rig rig.toml --json >out.txt
+check 'model show has six sigmas' grep -Eq '"least_sigma":\[([0-9.e-]+,){5}[0-9.e-]+\]' out.txt
+"$gannet" model show models/torn.gannet >out.txt 2>err.txt
+check 'model show refuses what is no model' test $? -eq 2
+
 for group in 'model build' 'config show'; do
   "$gannet" ${group% *} --help >out.txt 2>&1
   check "gannet ${group% *} --help ends well" test $? -eq 0

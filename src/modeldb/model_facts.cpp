@@ -1,0 +1,179 @@
+#include "src/modeldb/model_facts.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gannet::modeldb {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Pose = Transform<LeftCamera, Target>;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+std::size_t cell(const vision::PhotoPatch& p, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(p.width) +
+         static_cast<std::size_t>(x);
+}
+
+// On the target's plane, metres → whether the target is there; bilinear neighbours must all be.
+bool sample(const vision::PhotoPatch& p, const Vector2d& at_m, Vector3d& colour) {
+  const double u = p.centre_px.x() + at_m.x() * p.fx / p.distance_m;
+  const double v = p.centre_px.y() + at_m.y() * p.fy / p.distance_m;
+  if (!(u >= 0) || !(v >= 0) || !(u < p.width - 1) || !(v < p.height - 1)) return false;
+  const int x = static_cast<int>(u), y = static_cast<int>(v);
+  colour.setZero();
+  for (int i = 0; i < 4; ++i) {
+    const std::size_t at = cell(p, x + i % 2, y + i / 2);
+    if (p.mask[at] == 0) return false;
+    const double weight = (i % 2 == 0 ? 1 - (u - x) : u - x) * (i / 2 == 0 ? 1 - (v - y) : v - y);
+    for (int c = 0; c < 3; ++c) colour[c] += weight * p.yuv[3 * at + static_cast<std::size_t>(c)];
+  }
+  return true;
+}
+
+Vector3d shown(const vision::PhotoPatch& p, const Vector2d& at_m) {
+  Vector3d colour;
+  if (sample(p, at_m, colour)) return colour;
+  return Vector3d(static_cast<double>(p.background.y), static_cast<double>(p.background.u),
+                  static_cast<double>(p.background.v));
+}
+
+Vector2d place_of(const vision::PhotoPatch& p, int x, int y) {
+  return {(x - p.centre_px.x()) * p.distance_m / p.fx, (y - p.centre_px.y()) * p.distance_m / p.fy};
+}
+
+// From the target's origin to its farthest pixel.
+double radius_of(const vision::PhotoPatch& p) {
+  double radius = 0;
+  for (int y = 0; y < p.height; ++y)
+    for (int x = 0; x < p.width; ++x)
+      if (p.mask[cell(p, x, y)] != 0) radius = std::max(radius, place_of(p, x, y).norm());
+  return radius;
+}
+
+// What a fixed line of sight meets of the target's plane, in the target's frame.
+Vector2d meet(const Pose& pose, const Vector3d& origin, const Vector3d& ray) {
+  const auto back = pose.inverse();
+  const Vector3d o = back(origin), d = back.rotation * ray;
+  return (o - d * (o.z() / d.z())).head<2>();
+}
+
+Pose moved(const Pose& pose, int axis, double by) {
+  Pose out = pose;
+  if (axis < 3) {
+    out.translation[axis] += by;
+  } else {
+    const Vector3d turn = by * Vector3d::Unit(axis - 3);
+    out.rotation = quaternion_from_rotation_vector(turn) * pose.rotation;
+  }
+  return out;
+}
+
+// How a place on the target under a fixed pixel slides as the pose changes: 2 × 6.
+Eigen::Matrix<double, 2, 6> slide(const Pose& pose, const Vector3d& origin, const Vector3d& ray) {
+  constexpr double kStep = 1e-5;
+  Eigen::Matrix<double, 2, 6> out;
+  for (int axis = 0; axis < 6; ++axis)
+    out.col(axis) = (meet(moved(pose, axis, kStep), origin, ray) -
+                     meet(moved(pose, axis, -kStep), origin, ray)) /
+                    (2 * kStep);
+  return out;
+}
+
+// Slopes over one camera pixel to either side (grey levels/m, 3 × 2); false: near the outline.
+bool slopes(const vision::PhotoPatch& p, const Vector2d& at, double step_m,
+            Eigen::Matrix<double, 3, 2>& out) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const Vector2d step = step_m * Vector2d::Unit(axis);
+    Vector3d before, behind;
+    if (!sample(p, at - step, before) || !sample(p, at + step, behind)) return false;
+    out.col(axis) = (behind - before) / (2 * step_m);
+  }
+  return true;
+}
+
+bool inside(const Intrinsics& camera, const Vector3d& point) {
+  const auto pixel = camera.project(point);
+  return pixel && pixel->x() >= 0 && pixel->y() >= 0 && pixel->x() < camera.width &&
+         pixel->y() < camera.height;
+}
+
+}  // namespace
+
+double likeness_when_rolled(const vision::PhotoPatch& patch, double angle_rad) {
+  constexpr int kHalf = 48;  // grid steps from the middle to the border
+  const double radius = radius_of(patch);
+  const Eigen::Rotation2Dd roll(angle_rad);
+  Vector3d a_sum = Vector3d::Zero(), b_sum = a_sum, aa = a_sum, bb = a_sum, ab = a_sum;
+  int n = 0;
+  for (int y = -kHalf; y <= kHalf; ++y) {
+    for (int x = -kHalf; x <= kHalf; ++x) {
+      const Vector2d at = Vector2d(x, y) * (radius / kHalf);
+      if (at.norm() > radius) continue;
+      const Vector3d a = shown(patch, at), b = shown(patch, roll * at);
+      a_sum += a, b_sum += b;
+      aa += a.cwiseProduct(a), bb += b.cwiseProduct(b), ab += a.cwiseProduct(b);
+      ++n;
+    }
+  }
+  const double variances =
+      (aa - a_sum.cwiseProduct(a_sum) / n).sum() * (bb - b_sum.cwiseProduct(b_sum) / n).sum();
+  if (!(variances > 1e-6)) return 0;
+  return (ab - a_sum.cwiseProduct(b_sum) / n).sum() / std::sqrt(variances);
+}
+
+std::vector<double> ambiguous_rolls(const vision::PhotoPatch& patch) {
+  constexpr int kStep = 5, kFirst = 30;
+  constexpr double kAlike = 0.9, kEqual = 1e-9;
+  std::vector<double> rolls;
+  for (int degrees = kFirst; degrees <= 180; degrees += kStep) {
+    const double here = likeness_when_rolled(patch, degrees * kDegree);
+    if (here > kAlike &&
+        here >= likeness_when_rolled(patch, (degrees - kStep) * kDegree) - kEqual &&
+        here >= likeness_when_rolled(patch, (degrees + kStep) * kDegree) - kEqual)
+      rolls.push_back(degrees * kDegree);
+  }
+  return rolls;
+}
+
+std::optional<Vector6d> least_sigma(const vision::PhotoPatch& patch, const StereoRig& rig,
+                                    double depth_m, double noise_grey_levels) {
+  const Pose pose = {Eigen::Quaterniond::Identity(),
+                     rig.hand_from_left.inverse()(Vector3d(0, 0, depth_m))};
+  const auto left_from_right = rig.right_from_left.inverse();
+  const double variance = noise_grey_levels * noise_grey_levels + 1.0 / 12;
+  Matrix6d information = Matrix6d::Zero();
+  for (int y = 0; y < patch.height; ++y) {
+    for (int x = 0; x < patch.width; ++x) {
+      if (patch.mask[cell(patch, x, y)] == 0) continue;
+      const Vector2d at = place_of(patch, x, y);
+      Eigen::Matrix<double, 3, 2> slope;
+      if (!slopes(patch, at, depth_m / rig.left.fx, slope)) continue;
+      const Vector3d point = pose({at.x(), at.y(), 0});
+      for (const bool left : {true, false}) {
+        const Intrinsics& camera = left ? rig.left : rig.right;
+        if (!inside(camera, left ? point : rig.right_from_left(point))) continue;
+        const Vector3d origin = left ? Vector3d::Zero().eval() : left_from_right.translation;
+        const Eigen::Matrix<double, 3, 6> j = slope * slide(pose, origin, point - origin);
+        // Camera pixels for each pixel of the photo.
+        const double pixels = camera.fx * camera.fy / (depth_m * depth_m) * patch.distance_m *
+                              patch.distance_m / (patch.fx * patch.fy);
+        information += j.transpose() * j * (pixels / variance);
+      }
+    }
+  }
+  // In like units, or the rank would hang on metres beside radians.
+  Vector6d scale = Vector6d::Ones();
+  scale.head<3>().setConstant(depth_m);
+  Eigen::FullPivLU<Matrix6d> lu(scale.asDiagonal() * information * scale.asDiagonal());
+  lu.setThreshold(1e-9);
+  if (!lu.isInvertible()) return std::nullopt;
+  const Matrix6d inverse = lu.inverse();
+  return Vector6d(inverse.diagonal().cwiseSqrt().cwiseProduct(scale));
+}
+
+}  // namespace gannet::modeldb
