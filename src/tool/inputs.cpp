@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "platform/linux/cpu.hpp"
 #include "platform/linux/worker_pool.hpp"
@@ -152,6 +153,16 @@ Result<vision::PatchModel> read_model(const std::string& path, const track::Trac
   auto model = vision::make_patch_model(*patch, {.inside_points = config.model_points});
   if (!model) return Error{path + ": " + model.error().text};
   return model;
+}
+
+Result<std::vector<std::string>> model_files(const std::string& folder) {
+  std::error_code error;
+  std::vector<std::string> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".gannet") paths.push_back(entry.path().string());
+  if (error) return Error{folder + ": " + error.message()};
+  std::sort(paths.begin(), paths.end());
+  return paths;
 }
 
 Result<std::unique_ptr<Parallel>> make_workers(int threads) {

@@ -31,6 +31,9 @@ Result<hal::Image> read_camera_image(const std::string& path, const Intrinsics& 
 
 Result<vision::PatchModel> read_model(const std::string& path, const track::TrackConfig& config);
 
+// The .gannet files of a folder, by name. Error: no such folder.
+Result<std::vector<std::string>> model_files(const std::string& folder);
+
 // A pool of so many threads, the caller among them; 0: as many as there are cores.
 Result<std::unique_ptr<Parallel>> make_workers(int threads);
 

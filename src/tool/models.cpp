@@ -1,7 +1,5 @@
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <numbers>
 
 #include "src/config/rig_file.hpp"
@@ -82,17 +80,12 @@ int refuse(const char* command, const std::string& text) {
 std::string millimetres(double metres) { return report::number(1000 * metres, 1); }
 
 int list(const Arguments& arguments) {
-  const std::string folder = arguments.text("folder");
-  std::error_code error;
-  std::vector<std::string> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-    if (entry.path().extension() == ".gannet") paths.push_back(entry.path().string());
-  if (error) return refuse(kList, folder + ": " + error.message());
-  std::sort(paths.begin(), paths.end());
+  const auto paths = model_files(arguments.text("folder"));
+  if (!paths) return refuse(kList, paths.error().text);
   report::Table table({"name", "width mm", "height mm", "file"});
   Json json = Json::array();
   bool all = true;
-  for (const std::string& path : paths) {
+  for (const std::string& path : *paths) {
     const auto patch = modeldb::load_model(path);
     if (!patch) {
       tell(kList, patch.error().text);

@@ -9,6 +9,7 @@ Subcommand model_build_subcommand();  // photo → .gannet file
 Subcommand model_list_subcommand();   // a folder of .gannet files
 Subcommand model_show_subcommand();   // what one is good for
 Subcommand locate_subcommand();       // one stereo pair → pose
+Subcommand which_subcommand();        // one stereo pair → which model
 Subcommand track_subcommand();        // a folder of pairs → a table of poses
 Subcommand map_subcommand();          // the fitness over x and y
 Subcommand report_subcommand();       // recorded runs → a page

@@ -10,6 +10,7 @@
 #include "platform/base/command_line.hpp"
 #include "platform/linux/clock.hpp"
 #include "src/report/progress.hpp"
+#include "src/world/album.hpp"
 #include "src/world/assets.hpp"
 #include "src/world/daemon_process.hpp"
 #include "src/world/reactions.hpp"
@@ -108,12 +109,24 @@ Command command() {
             .help = "With --live: the sysfs folder of a chip of gpio-sim, with sim_gpio0 "
                     "(e-stop), 1 (its second contact), 2 (release) and 3 (light), in the place of "
                     "a mapped file."},
+           {.name = "album",
+            .value = "DIR",
+            .help = "Run no scenario: make the model database of P001 Fig. 5, six creatures from "
+                    "two sides each, as DIR/models/*.gannet, and DIR/rig.toml."},
+           {.name = "pairs",
+            .kind = ArgumentKind::kInteger,
+            .value = "N",
+            .min = 0,
+            .max = 100000,
+            .unit = "pairs",
+            .preset = "0",
+            .help = "With --album: so many pictures of one of them each, DIR/pairs/left and right, "
+                    "and DIR/pairs/truth.csv, for `gannet which`."},
            {.name = "assets",
             .value = "DIR",
             .help = "The photographs; $GANNET_ASSETS or build/assets if absent."}},
       .positionals = {{.name = "scenario",
                        .value = "SCENARIO",
-                       .required = true,
                        .help = "A TOML file, or the name of one that is shipped."}},
       .example = "gannet-world rov_station_keeping --stepped --record out",
       .exit_codes =
@@ -158,7 +171,25 @@ std::string not_there(const std::string& name, const std::string& path,
          "../share/gannet/scenarios; give its file, or set GANNET_SCENARIOS to its folder";
 }
 
+int run_album(const Arguments& arguments) {
+  const std::string assets = arguments.given("assets") ? arguments.text("assets") : assets_folder();
+  const auto seed = static_cast<std::uint64_t>(arguments.given("seed") ? arguments.integer("seed")
+                                                                       : Scenario().seed);
+  Serial serial;
+  const auto album =
+      make_album(arguments.text("album"), assets, arguments.integer("pairs"), seed, serial);
+  if (!album) return fail(3, album.error().text);
+  for (const std::string& note : album->notes) std::printf("  %s\n", note.c_str());
+  std::printf("wrote %d models and %d pairs below %s\n", album->models, arguments.integer("pairs"),
+              arguments.text("album").c_str());
+  return 0;
+}
+
 int run(const Arguments& arguments, const std::string& program) {
+  if (arguments.given("album") == arguments.given("scenario"))
+    return fail(2, arguments.given("album") ? "--album runs no scenario: leave it away"
+                                            : "SCENARIO is missing");
+  if (arguments.given("album")) return run_album(arguments);
   const std::string path = find_scenario(arguments.text("scenario"), program);
   if (std::error_code error; !std::filesystem::exists(path, error))
     return fail(2, not_there(arguments.text("scenario"), path, program));

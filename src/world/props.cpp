@@ -23,8 +23,26 @@ image_file::Raster8 drawn(const std::string& name) {
   return noise_picture(256, seed);
 }
 
+// A flat thing's other side.
+image_file::Raster8 mirrored(const image_file::Raster8& picture) {
+  image_file::Raster8 out(picture.width, picture.height, picture.channels);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      std::copy_n(picture.at(picture.width - 1 - x, y), picture.channels, out.at(x, y));
+  return out;
+}
+
 Result<image_file::Raster8> picture_of(const TargetScenario& target, const std::string& assets,
                                        std::vector<std::string>& notes) {
+  const std::string other_side = " mirrored";
+  if (target.texture.ends_with(other_side)) {
+    TargetScenario plain = target;
+    plain.texture.resize(target.texture.size() - other_side.size());
+    auto picture = picture_of(plain, assets, notes);
+    if (!picture) return picture.error();
+    notes.back() += ", mirrored";
+    return mirrored(*picture);
+  }
   if (target.texture == "drawn") {
     notes.push_back(target.name + ": a drawn picture");
     return drawn(target.name);
@@ -38,7 +56,7 @@ Result<image_file::Raster8> picture_of(const TargetScenario& target, const std::
     std::string names = "drawn, person";
     for (const Creature& known : creatures()) names += ", " + std::string(known.name);
     return Error{"target '" + target.name + "': there is no texture '" + target.texture +
-                 "'; there are: " + names};
+                 "'; there are, each also with ' mirrored': " + names};
   }
   auto picture = read_stamp(assets + "/" + std::string(creature->picture));
   if (!picture) {
