@@ -169,6 +169,7 @@ help:
 	@echo "make demo         install what is missing, build, and run the main job in the simulated world"
 	@echo "make check        install what is missing, build, run all tests that need no privileges"
 	@echo "make bench        measure kernels, hand-overs and stages against references, in one run"
+	@echo "make report       how robust recognition is, beside the published search, as heat maps: TRIALS=15 SEED=1"
 	@echo "make asan, tsan   the tests under AddressSanitizer + UBSan, under ThreadSanitizer"
 	@echo "make fuzz         libFuzzer over everything that comes from outside; FUZZ_SECONDS=20 each"
 	@echo "make clang        compile everything with clang++, warnings are errors"
@@ -254,6 +255,6 @@ clean:
 
 .PHONY: all tests help deps check run-tests asan tsan clang arm64 format docs install clean
 
-include tests/support/assets.mk tests/support/bench.mk tests/support/demo.mk tests/support/fuzz.mk systemd/deb/deb.mk tests/hil/hil.mk
+include tests/support/assets.mk tests/support/bench.mk tests/support/report.mk tests/support/demo.mk tests/support/fuzz.mk systemd/deb/deb.mk tests/hil/hil.mk
 
 -include $(shell find $B -name '*.d' 2>/dev/null)

@@ -54,7 +54,7 @@ report() {
 for binary in $(cd "$build/tests" && find . -name run -type f -printf '%P\n' | sort); do
   # What has no source any more, and benchmarks, are not tests.
   name=${binary%/run}
-  [ -d "tests/$name" ] && [ "$name" != bench ] && run_binary "$name"
+  [ -d "tests/$name" ] && [ "$name" != bench ] && [ "$name" != report ] && run_binary "$name"
 done
 for script in tests/style/*.sh tests/golden/*.sh tests/system/*.sh; do
   [ -x "$script" ] && run_script "$script"
