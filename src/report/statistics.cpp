@@ -26,6 +26,24 @@ std::vector<double> sorted_copy(std::span<const double> values) {
   return sorted;
 }
 
+// Probability of at most `events` where `mean_events` are expected.
+double poisson_at_most(int events, double mean_events) {
+  double sum = 0;
+  for (int k = 0; k <= events; ++k)
+    sum += std::exp(k * std::log(mean_events) - mean_events - std::lgamma(k + 1.0));
+  return sum;
+}
+
+// The mean at which that probability is `share`; it falls as the mean grows.
+double poisson_mean(int events, double share) {
+  double low = 0, high = events + 12 * std::sqrt(events + 1.0);
+  for (int i = 0; i < 100; ++i) {
+    const double middle = (low + high) / 2;
+    (poisson_at_most(events, middle) > share ? low : high) = middle;
+  }
+  return high;
+}
+
 }  // namespace
 
 double mean(std::span<const double> values) {
@@ -78,6 +96,10 @@ Interval wilson95(int successes, int trials) {
   const double scale = 1 + kZ * kZ / n;
   return {successes == 0 ? 0 : (centre - half) / scale,
           successes == trials ? 1 : (centre + half) / scale};
+}
+
+Interval poisson95(int events) {
+  return {events == 0 ? 0 : poisson_mean(events - 1, 0.975), poisson_mean(events, 0.025)};
 }
 
 }  // namespace gannet::report

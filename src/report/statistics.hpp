@@ -27,4 +27,8 @@ struct Interval {
 };
 Interval wilson95(int successes, int trials);
 
+// 95 % interval of the mean number of events where so many were counted (exact for Poisson's law:
+// F. Garwood, Biometrika 28, 1936). Divide by the time watched for a rate.
+Interval poisson95(int events);
+
 }  // namespace gannet::report

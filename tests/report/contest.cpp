@@ -34,11 +34,10 @@ Result<Bench> make_bench(const Contest& contest, const Cast& cast) {
   return bench;
 }
 
-Outcome outcome_of(const track::Recognition& got, const Pose& truth) {
-  const Eigen::Vector3d d = 1000 * (got.left_from_target.translation - truth.translation);
-  const auto turn = canonical(got.left_from_target.rotation * truth.rotation.conjugate());
+Outcome outcome_of(const Pose& found, const Pose& truth) {
+  const Eigen::Vector3d d = 1000 * (found.translation - truth.translation);
+  const auto turn = canonical(found.rotation * truth.rotation.conjugate());
   Outcome out;
-  out.trusted = got.found;
   out.side_mm = d.head<2>().norm();
   out.depth_mm = std::abs(d.z());
   out.angle_deg = rotation_vector_from_quaternion(turn).norm() * 180 / 3.14159265358979;
@@ -63,11 +62,15 @@ void play(const Contest& contest, const Cast& cast, const Conditions& conditions
     sut.set_model(cast.models[static_cast<std::size_t>(shot.creature)]);
     const auto got =
         sut.recognise(*bench.frame, nullptr, {.evaluations = double(contest.evaluations)}, serial);
-    cell.trials[i][static_cast<std::size_t>(trial)] = outcome_of(got, shot.truth);
+    Outcome& outcome = cell.trials[i][static_cast<std::size_t>(trial)];
+    outcome = outcome_of(got.left_from_target, shot.truth);
+    outcome.trusted = got.found;
   }
 }
 
 }  // namespace
+
+bool is_right(const Pose& found, const Pose& truth) { return outcome_of(found, truth).right; }
 
 Result<std::vector<std::vector<Cell>>> run(const Contest& contest, const Cast& cast,
                                            std::span<const Plane> planes, Parallel& parallel,

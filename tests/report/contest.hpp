@@ -23,6 +23,8 @@ inline constexpr std::array<Method, 2> kMethods = {
 // A pose is right within these, as in the acquisition benchmark.
 inline constexpr double kSide_mm = 10, kDepth_mm = 20, kAngle_deg = 10;
 
+bool is_right(const Pose& found, const Pose& truth);
+
 struct Outcome {
   bool right = false;  // the pose; whether or not the method itself trusts it
   bool trusted = false;

@@ -100,24 +100,23 @@ world::SceneObject Studio::object(int creature, const Pose& pose) const {
   return {cast_.places.targets[i], kWorldFromLeft * pose, cast_.size_m[i], 0};
 }
 
-void Studio::add_distractors(Random& random, const Conditions& conditions, const Shot& shot,
-                             world::Scene& scene) const {
+void Studio::add_distractors(Random& random, const Conditions& conditions, Staged& staged) const {
   const int others = static_cast<int>(cast_.models.size()) - 1;
   for (int i = 0; i < static_cast<int>(conditions.distractors); ++i) {
-    const int creature = (shot.creature + 1 + i % others) % (others + 1);
+    const int creature = (staged.creature + 1 + i % others) % (others + 1);
     const double z = conditions.distance_m + between(random, 0.2, 0.5);  // it hides nothing
     const double rx = between(random, -30, 30) * kRadians, ry = between(random, -30, 30) * kRadians;
     const double rz = between(random, -35, 35) * kRadians;
     const double x = between(random, -0.45, 0.55) * z, y = between(random, -0.35, 0.35) * z;
-    scene.objects.push_back(object(creature, {quaternion_from_rpy(rx, ry, rz), {x, y, z}}));
+    staged.scene.objects.push_back(object(creature, {quaternion_from_rpy(rx, ry, rz), {x, y, z}}));
   }
 }
 
 // A textured strip along one side of the target's box, 20 mm before its plane.
-void Studio::add_cover(Random& random, double share, const Shot& shot, world::Scene& scene) const {
+void Studio::add_cover(Random& random, double share, Staged& staged) const {
   const int side = random.below(4);
   if (share <= 0) return;
-  const Eigen::Vector2d& size_m = cast_.size_m[static_cast<std::size_t>(shot.creature)];
+  const Eigen::Vector2d& size_m = cast_.size_m[static_cast<std::size_t>(staged.creature)];
   const int axis = side % 2;
   constexpr double kBefore_m = 0.02, kBeyond_m = 0.04;  // how far it reaches out
   Eigen::Vector2d strip_m = size_m.array() + 2 * kBeyond_m;
@@ -125,36 +124,47 @@ void Studio::add_cover(Random& random, double share, const Shot& shot, world::Sc
   Eigen::Vector3d middle(0, 0, -kBefore_m);
   middle[axis] = (side < 2 ? -1 : 1) * ((0.5 - share) * size_m[axis] + strip_m[axis] / 2);
   const Transform<Target, Target> aside = {Eigen::Quaterniond::Identity(), middle};
-  scene.objects.push_back({cast_.places.cover, kWorldFromLeft * shot.truth * aside, strip_m, 0});
+  staged.scene.objects.push_back(
+      {cast_.places.cover, kWorldFromLeft * staged.truth * aside, strip_m, 0});
+}
+
+Staged Studio::stage(const Conditions& conditions, int trial, int number, Show show) const {
+  Random random(world::hashed(seed_, static_cast<std::uint64_t>(number)));
+  Staged out;
+  out.creature = trial % static_cast<int>(cast_.models.size());
+  out.truth = pose_in_view(random, conditions, out.creature);
+  out.scene.water = water_of(conditions.turbidity_per_m);
+  out.scene.light.lux = conditions.light_lux;
+  const Pose ground = {Eigen::Quaterniond::Identity(), {0, 0, kGround_m}};
+  out.scene.background.push_back(
+      {cast_.places.background, kWorldFromLeft * ground, {30, 30}, world::kBottomTile_m});
+  if (show == Show::kTarget) {
+    out.scene.objects.push_back(object(out.creature, out.truth));
+    add_cover(random, conditions.occlusion, out);
+  }
+  add_distractors(random, conditions, out);
+  return out;
+}
+
+Shot Studio::shoot(const Staged& staged, double blur_px, int number) {
+  if (!renderer_ || blur_px_ != blur_px) {
+    blur_px_ = blur_px;
+    renderer_ = std::make_unique<world::Renderer>(
+        cast_.rig, cast_.textures,
+        world::RendererConfig{.sensor = {}, .blur_x_px = blur_px, .blur_y_px = blur_px}, seed_);
+  }
+  const Intrinsics& camera = cast_.rig.left;
+  Shot shot = {staged.creature, staged.truth,
+               hal::Image(camera.width, camera.height, hal::PixelFormat::kYuyv),
+               hal::Image(camera.width, camera.height, hal::PixelFormat::kYuyv)};
+  Serial serial;
+  renderer_->render(staged.scene, kWorldFromLeft, 0, static_cast<std::uint64_t>(number), serial,
+                    world::target_of(shot.left), world::target_of(shot.right));
+  return shot;
 }
 
 Shot Studio::take(const Conditions& conditions, int trial, int number) {
-  if (!renderer_ || blur_px_ != conditions.blur_px) {
-    blur_px_ = conditions.blur_px;
-    renderer_ = std::make_unique<world::Renderer>(
-        cast_.rig, cast_.textures,
-        world::RendererConfig{.sensor = {}, .blur_x_px = blur_px_, .blur_y_px = blur_px_}, seed_);
-  }
-  Random random(world::hashed(seed_, static_cast<std::uint64_t>(number)));
-  Shot shot;
-  shot.creature = trial % static_cast<int>(cast_.models.size());
-  shot.truth = pose_in_view(random, conditions, shot.creature);
-  world::Scene scene;
-  scene.water = water_of(conditions.turbidity_per_m);
-  scene.light.lux = conditions.light_lux;
-  const Pose ground = {Eigen::Quaterniond::Identity(), {0, 0, kGround_m}};
-  scene.background.push_back(
-      {cast_.places.background, kWorldFromLeft * ground, {30, 30}, world::kBottomTile_m});
-  scene.objects.push_back(object(shot.creature, shot.truth));
-  add_cover(random, conditions.occlusion, shot, scene);
-  add_distractors(random, conditions, shot, scene);
-  const Intrinsics& camera = cast_.rig.left;
-  shot.left = hal::Image(camera.width, camera.height, hal::PixelFormat::kYuyv);
-  shot.right = shot.left;
-  Serial serial;
-  renderer_->render(scene, kWorldFromLeft, 0, static_cast<std::uint64_t>(number), serial,
-                    world::target_of(shot.left), world::target_of(shot.right));
-  return shot;
+  return shoot(stage(conditions, trial, number, Show::kTarget), conditions.blur_px, number);
 }
 
 }  // namespace gannet::robustness

@@ -29,6 +29,14 @@ struct Cast {
 // assets: the folder of photographs. Model files are left in `folder`. Error: names the file.
 Result<Cast> make_cast(const std::string& assets, const std::string& folder);
 
+// A scene, and what is sought in it: there unless shown without.
+struct Staged {
+  int creature = 0;
+  Pose truth;
+  world::Scene scene;
+};
+enum class Show { kTarget, kDistractorsAlone };
+
 struct Shot {
   int creature = 0;
   Pose truth;
@@ -43,12 +51,15 @@ class Studio {
   // dice and noise: trials are independent, also those of different cells.
   Shot take(const Conditions& conditions, int trial, int number);
 
+  // The same in two steps, for what moves in between. number of shoot() gives the noise.
+  Staged stage(const Conditions& conditions, int trial, int number, Show show) const;
+  Shot shoot(const Staged& staged, double blur_px, int number);
+
  private:
   Pose pose_in_view(Random& random, const Conditions& conditions, int creature) const;
   world::SceneObject object(int creature, const Pose& pose) const;
-  void add_distractors(Random& random, const Conditions& conditions, const Shot& shot,
-                       world::Scene& scene) const;
-  void add_cover(Random& random, double share, const Shot& shot, world::Scene& scene) const;
+  void add_distractors(Random& random, const Conditions& conditions, Staged& staged) const;
+  void add_cover(Random& random, double share, Staged& staged) const;
 
   const Cast& cast_;
   const std::uint64_t seed_;

@@ -6,10 +6,13 @@ $(REPORT): $(patsubst %.cpp,$B/obj/%.o,$(wildcard tests/report/*.cpp)) $(call li
 	@$(link) $(LIBS) $(LIBS_GPIO)
 tests: $(REPORT)
 
+# CAMPAIGN=false_locks MINUTES=60: an hour of footage without the target, and a third with it, instead.
 TRIALS ?= 15
 SEED   ?= 1
+MINUTES ?= 2
+CAMPAIGN ?=
 report:
 	@$(call need,$(PACKAGES_BUILD))
 	@$(MAKE) --no-print-directory $(REPORT) assets
-	@$(REPORT) --out build/report --trials $(TRIALS) --seed $(SEED)
+	@$(REPORT) --out build/report --trials $(TRIALS) --seed $(SEED) $(if $(filter false_locks,$(CAMPAIGN)),--false-locks $$(($(MINUTES) * 60)))
 .PHONY: report

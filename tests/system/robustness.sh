@@ -18,6 +18,10 @@ check 'one thread finds the same as two' cmp -s one/results.json two/results.jso
 check 'another seed is another report' test "$(cmp -s one/results.json other/results.json; echo $?)" -eq 1
 easiest=$(grep -m 1 '"right"' one/results.json)
 check 'the easiest cell is right' test "${easiest//[^0-9]/}" -eq 1
+"$report" --false-locks 4 >out.txt 2>err.txt
+check 'a campaign of one clip without the target and one with it' test $? -eq 0
+check 'the clips were watched whole' grep -q ' (120 frames, ' out.txt
+check 'the target was locked' grep -q ' of 114 frames; never in 0 clips' out.txt
 "$report" --only nothing >out.txt 2>err.txt
 check 'a plane that is not there is refused' test $? -eq 2
 "$report" --trials 0 >out.txt 2>err.txt

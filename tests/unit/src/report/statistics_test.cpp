@@ -58,5 +58,15 @@ TEST(Wilson, is_never_empty_and_never_beyond_the_ends) {
   EXPECT_EQ(wilson95(0, 0).high, 1);
 }
 
+// Half the quantiles of chi-square, as tables give them.
+TEST(Poisson, agrees_with_published_values) {
+  EXPECT_EQ(poisson95(0).low, 0);
+  EXPECT_NEAR(poisson95(0).high, 3.689, 1e-3);
+  EXPECT_NEAR(poisson95(1).low, 0.0253, 1e-4);
+  EXPECT_NEAR(poisson95(1).high, 5.572, 1e-3);
+  EXPECT_NEAR(poisson95(10).low, 4.795, 1e-3);
+  EXPECT_NEAR(poisson95(10).high, 18.390, 1e-3);
+}
+
 }  // namespace
 }  // namespace gannet::report
