@@ -156,9 +156,10 @@ Json ControlCommands::state_json() const {
   json["cause"] = safety::to_string(servo.outputs.cause);
   json["permit"] = safety::to_string(servo.outputs.permit);
   json["by_hand"] = servo.outputs.by_hand;
-  json["estop"] = servo.estop == safety::Line::kInactive ? "inactive"
-                  : servo.estop == safety::Line::kActive ? "active"
-                                                         : "unknown";
+  json["estop"] = !servo.has_estop                         ? "no line"
+                  : servo.estop == safety::Line::kInactive ? "inactive"
+                  : servo.estop == safety::Line::kActive   ? "active"
+                                                           : "unknown";
   json["estop_presses"] = servo.estop_presses;
   json["obstacle"] = safety::to_string(servo.outputs.obstacle);
   json["light"] = safety::to_string(servo.outputs.light);

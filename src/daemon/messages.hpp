@@ -81,6 +81,7 @@ struct ServoReport {
   telemetry::LoopTelemetry<9> loop;
   safety::Memory supervisor;
   safety::Outputs outputs;
+  bool has_estop = true;  // false: no line is configured, and estop says nothing
   safety::Line estop = safety::Line::kUnknown;
   std::uint64_t estop_presses = 0;
   std::uint64_t estop_discrepancies = 0;

@@ -122,8 +122,9 @@ void ServoLoop::receive(TimePoint now) {
 }
 
 void ServoLoop::read_estop(TimePoint now) {
-  report_.estop = safety::Line::kInactive;  // no line by config
-  if (links_.estop == nullptr) return;
+  report_.has_estop = links_.estop != nullptr;
+  report_.estop = safety::Line::kInactive;
+  if (!report_.has_estop) return;
   const safety::EstopInput::Channel first = channel_of(links_.estop->read(now));
   report_.estop = links_.estop_second == nullptr
                       ? estop_input_.step(first, now)

@@ -97,6 +97,20 @@ TEST_F(ControlCommandsTest, without_a_pose_its_fields_are_null) {
   EXPECT_FALSE(status["target"]["valid"].get<bool>());
 }
 
+TEST_F(ControlCommandsTest, an_emergency_stop_that_is_not_there_is_not_called_inactive) {
+  const auto told = [this](bool has_estop, safety::Line line) {
+    ServoReport& servo = report_lines_.servo.back();
+    servo.has_estop = has_estop;
+    servo.estop = line;
+    report_lines_.servo.publish();
+    return result("status")["estop"].get<std::string>();
+  };
+  EXPECT_EQ(told(true, safety::Line::kUnknown), "unknown");
+  EXPECT_EQ(told(true, safety::Line::kInactive), "inactive");
+  EXPECT_EQ(told(true, safety::Line::kActive), "active");
+  EXPECT_EQ(told(false, safety::Line::kInactive), "no line");
+}
+
 TEST_F(ControlCommandsTest, requests_go_to_the_servo_loop) {
   const std::pair<const char*, Request> requests[] = {{"arm", Request::kArm},
                                                       {"disarm", Request::kDisarm},

@@ -214,6 +214,7 @@ TEST_F(ServoLoopTest, a_release_that_bounces_is_not_yet_one) {
   ask(Request::kReset);
   EXPECT_EQ(state(), State::kStandby);
   EXPECT_EQ(report_.read().estop_presses, 1u);
+  EXPECT_TRUE(report_.read().has_estop);
 }
 
 TEST_F(ServoLoopTest, the_second_contact_stops_too_and_a_broken_one_is_told) {
@@ -308,6 +309,7 @@ TEST_F(ServoLoopTest, without_an_estop_it_arms_only_where_the_config_accepts_tha
   ask(Request::kArm);
   EXPECT_EQ(state(), State::kStandby);
   EXPECT_EQ(report_.read().refused, Cause::kNoEstop);
+  EXPECT_FALSE(report_.read().has_estop);
   safety_.accept_no_estop = true;
   make(vehicle_.get());
   step(2);
