@@ -42,8 +42,9 @@ void describe(Visitor& v, DriveConfig& c) {
           {.min = 0,
            .max = 0.2,
            .unit = "s",
-           .help = "Least time between two commands; 0: one in each servo cycle. Stop and start "
-                   "are sent at once in any case."});
+           .help = "Least time between two commands of dronecan_esc and vesc; 0: one in each servo "
+                   "cycle. Stop and start are sent at once in any case, and stops of vesc in each "
+                   "cycle."});
   v.field("feedback_timeout_s", c.feedback_timeout_s,
           {.min = 0.02, .max = 10, .unit = "s", .help = "A motor silent for longer is not alive."});
   v.field("node_timeout_s", c.node_timeout_s,

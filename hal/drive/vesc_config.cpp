@@ -21,8 +21,9 @@ void describe(Visitor& v, VescConfig& c) {
           {.min = 0.05,
            .max = 10,
            .unit = "s",
-           .help = "How long a motor that is no longer enabled is commanded to stop. Then the bus "
-                   "is silent, so that the VESC's own time-out can be seen to pass."});
+           .help = "How long a motor that is no longer enabled, or that came back, is commanded to "
+                   "stop; never shorter than feedback_timeout_s. Then it is left alone, so that "
+                   "its own time-out can be seen to pass."});
   v.field("guard_time_s", c.guard_time_s,
           {.min = 0.05,
            .max = 10,
