@@ -1,5 +1,7 @@
 # `make hil`: scenarios on the kernel's real interfaces, in a virtual machine (tests/hil/README.md).
 PACKAGES_HIL := qemu-system-x86 mmdebstrap fakeroot busybox-static cpio e2fsprogs kmod make xz-utils dpkg-dev
+# The foreign readers of the recorded buses (decode.sh).
+PACKAGES_HIL += tshark python3-can
 PACKAGES_HIL_ARM64 := qemu-system-arm g++-$(ARM64) googletest
 HIL_SCENARIOS ?=
 SEEDS ?= 1
