@@ -21,6 +21,7 @@ void bench_fitness(const Options& options, Results& results);
 void bench_handover(const Options& options, Results& results);
 void bench_frame(const Options& options, Results& results);
 void bench_acquisition(const Options& options, Results& results);
+void bench_decision(const Options& options, Results& results);
 void bench_accuracy(const Options& options, Results& results);
 void bench_relief(const Options& options, Results& results);
 void bench_render(const Options& options, Results& results);

@@ -169,6 +169,20 @@ TEST_F(Tracking, takes_no_heap_once_it_exists) {
   EXPECT_GE(found, 5);
 }
 
+TEST_F(Tracking, says_within_two_frames_that_its_target_is_gone) {
+  const auto at = pose_at(0.05, -0.02, 0.6, 8, -6, 5);
+  ASSERT_TRUE(sut->choose_model(0, 1));
+  PoseEstimate got;
+  for (int i = 0; i < 5; ++i) got = see(&at);
+  ASSERT_EQ(got.state, TrackState::kLocked);
+  see(nullptr);
+  for (int i = 2; i <= 20; ++i) {
+    got = see(nullptr);
+    EXPECT_FALSE(got.found) << i;
+    EXPECT_NE(got.state, TrackState::kLocked) << i;
+  }
+}
+
 TEST_F(Tracking, refuses_models_and_rectangles_that_are_not_there) {
   EXPECT_FALSE(sut->choose_model(1, 1));
   EXPECT_FALSE(sut->choose_model(-1, 1));
