@@ -1,5 +1,6 @@
 #include "tests/bench/results.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -93,7 +94,7 @@ Spread wilson_percent(int successes, int trials) {
   const double p = successes / n;
   const double middle = (p + kZ * kZ / (2 * n)) / (1 + kZ * kZ / n);
   const double half = kZ / (1 + kZ * kZ / n) * std::sqrt(p * (1 - p) / n + kZ * kZ / (4 * n * n));
-  return {100 * p, 100 * (middle - half), 100 * (middle + half)};
+  return {100 * p, 100 * std::max(0.0, middle - half), 100 * std::min(1.0, middle + half)};
 }
 
 }  // namespace gannet::bench
