@@ -170,6 +170,7 @@ help:
 	@echo "make check        install what is missing, build, run all tests that need no privileges"
 	@echo "make bench        measure kernels, hand-overs and stages against references, in one run"
 	@echo "make report       how robust recognition is, beside the published search, as heat maps: TRIALS= SEED= CAMPAIGN=false_locks MINUTES="
+	@echo "make bench-peers  beside OpenCV, ViSP and AprilTag on the same rendered views; installs them"
 	@echo "make asan, tsan   the tests under AddressSanitizer + UBSan, under ThreadSanitizer"
 	@echo "make fuzz         libFuzzer over everything that comes from outside; FUZZ_SECONDS=20 each"
 	@echo "make clang        compile everything with clang++, warnings are errors"
