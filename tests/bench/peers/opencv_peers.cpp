@@ -115,12 +115,13 @@ class EccPeer : public Peer {
   EccPeer(const StereoRig& rig, const world::TargetPhoto& photo) : camera_(matrix_of(rig.left)) {
     // The target's square of the photo at half resolution: as large as in a frame at 0.8 m.
     const double px = rig.left.fx * kSide_m / kPhotoRange_m;
-    const cv::Rect2d place(rig.left.cx - px / 2, rig.left.cy - px / 2, px, px);
-    const cv::Mat cut = grey_of_photo(photo.target)(cv::Rect(place));
+    const cv::Rect place(static_cast<int>(rig.left.cx - px / 2),
+                         static_cast<int>(rig.left.cy - px / 2), static_cast<int>(px),
+                         static_cast<int>(px));
+    const cv::Mat cut = grey_of_photo(photo.target)(place);
     cv::resize(cut, template_, {cut.cols / 2, cut.rows / 2}, 0, 0, cv::INTER_AREA);
     metres_ = kPhotoRange_m / rig.left.fx * 2;
-    origin_px_ = {(rig.left.cx - std::floor(place.x) - 0.5) / 2,
-                  (rig.left.cy - std::floor(place.y) - 0.5) / 2};
+    origin_px_ = {(rig.left.cx - place.x - 0.5) / 2, (rig.left.cy - place.y - 0.5) / 2};
   }
 
   const char* name() const override { return "OpenCV ECC"; }
