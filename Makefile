@@ -168,6 +168,7 @@ help:
 	@echo "make              build gannetd, gannet and gannet-world into build/release/bin"
 	@echo "make demo         install what is missing, build, and run the main job in the simulated world"
 	@echo "make check        install what is missing, build, run all tests that need no privileges"
+	@echo "make papers       the papers' experiments, their figures beside ours: SEEDS=3 METHOD=ours ONLY= JOBS=list"
 	@echo "make bench        measure kernels, hand-overs and stages against references, in one run"
 	@echo "make report       how robust recognition is, beside the published search, as heat maps: TRIALS= SEED= CAMPAIGN=false_locks MINUTES="
 	@echo "make bench-peers  beside OpenCV, ViSP and AprilTag on the same rendered views; installs them"
@@ -256,6 +257,6 @@ clean:
 
 .PHONY: all tests help deps check run-tests asan tsan clang arm64 format docs install clean
 
-include tests/support/assets.mk tests/support/bench.mk tests/support/report.mk tests/support/demo.mk tests/support/fuzz.mk systemd/deb/deb.mk tests/hil/hil.mk
+include tests/support/assets.mk tests/support/bench.mk tests/support/report.mk tests/support/demo.mk tests/support/fuzz.mk tests/support/papers.mk systemd/deb/deb.mk tests/hil/hil.mk
 
 -include $(shell find $B -name '*.d' 2>/dev/null)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -42,6 +43,18 @@ double poisson_mean(int events, double share) {
     (poisson_at_most(events, middle) > share ? low : high) = middle;
   }
   return high;
+}
+
+// The 97.5 % quantile of Student's t: tabled for few degrees of freedom, beyond them the
+// Cornish-Fisher series, which is right to four digits there.
+double t_quantile(std::size_t freedom) {
+  constexpr double kTable[] = {12.7062, 4.3027, 3.1824, 2.7764, 2.5706,
+                               2.4469,  2.3646, 2.3060, 2.2622, 2.2281};
+  if (freedom <= std::size(kTable)) return kTable[freedom - 1];
+  constexpr double z = 1.959963984540054;
+  const auto n = static_cast<double>(freedom);
+  const double z3 = z * z * z, z5 = z3 * z * z;
+  return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n);
 }
 
 }  // namespace
@@ -100,6 +113,13 @@ Interval wilson95(int successes, int trials) {
 
 Interval poisson95(int events) {
   return {events == 0 ? 0 : poisson_mean(events - 1, 0.975), poisson_mean(events, 0.025)};
+}
+
+MeanInterval mean95(std::span<const double> values) {
+  if (values.size() < 2) return {kNaN, kNaN};
+  const double half = t_quantile(values.size() - 1) * standard_deviation(values) /
+                      std::sqrt(static_cast<double>(values.size()));
+  return {mean(values) - half, mean(values) + half};
 }
 
 }  // namespace gannet::report

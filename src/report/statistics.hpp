@@ -31,4 +31,10 @@ Interval wilson95(int successes, int trials);
 // F. Garwood, Biometrika 28, 1936). Divide by the time watched for a rate.
 Interval poisson95(int events);
 
+// 95 % interval of the mean of a normal population (Student's t). Less than two values: NaN.
+struct MeanInterval {
+  double low, high;
+};
+MeanInterval mean95(std::span<const double> values);
+
 }  // namespace gannet::report

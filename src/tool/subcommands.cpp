@@ -105,10 +105,17 @@ int print_reference(const std::string& name) {
 
 std::span<const Subcommand> subcommands() {
   static const std::vector<Subcommand> kTable = [] {
-    std::vector<Subcommand> table = {
-        model_build_subcommand(), model_list_subcommand(), model_show_subcommand(),
-        locate_subcommand(),      which_subcommand(),      track_subcommand(),
-        map_subcommand(),         report_subcommand(),     cameras_subcommand()};
+    std::vector<Subcommand> table = {model_build_subcommand(),
+                                     model_list_subcommand(),
+                                     model_show_subcommand(),
+                                     locate_subcommand(),
+                                     which_subcommand(),
+                                     track_subcommand(),
+                                     map_subcommand(),
+                                     report_subcommand(),
+                                     cameras_subcommand(),
+                                     campaign_merge_subcommand(),
+                                     campaign_report_subcommand()};
     const std::vector<Subcommand> online = online_subcommands();
     table.insert(table.end(), online.begin(), online.end());
     return table;

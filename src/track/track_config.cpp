@@ -25,6 +25,9 @@ void describe(Visitor& v, TrackConfig& c) {
            .max = 512,
            .help = "Coarse candidates of one frame while locked that look for a better place "
                    "elsewhere."});
+  v.field("refine", c.refine,
+          {.help = "Refine what the search found to below a pixel; false: the search's own pose, "
+                   "as in the papers."});
   v.field("seed", c.seed, {.min = 0, .max = 2147483647, .help = "Of the search's random numbers."});
   v.field("model_points", c.model_points,
           {.min = 32, .max = 2000, .help = "Wanted points on a model's target (S_in)."});

@@ -14,6 +14,7 @@ struct TrackConfig {
   int evaluations = 20000;           // full stereo evaluations from nothing
   int evaluations_tracking = 2000;   // while locked, where the quick way fails
   int watch_candidates = 160;        // coarse, a frame, while locked: the global check
+  bool refine = true;  // below a pixel; false: as in the papers, the pose is the search's own
   int seed = 1;
   int model_points = 800;  // wanted S_in points of a model
   // Least correlation plus lead over the best place elsewhere that counts as found: true poses

@@ -9,6 +9,7 @@
 
 #include "platform/base/command_line.hpp"
 #include "src/world/action.hpp"
+#include "src/world/path_measures.hpp"
 #include "src/world/reactions.hpp"
 
 namespace gannet::world {
@@ -201,6 +202,40 @@ double releases(const Trace& trace, const Window& window) {
   return count;
 }
 
+template <int kAxis>
+double mean_axis_mm(const Trace& trace, const Window& window) {
+  return mean_place_mm(trace, window, kAxis);
+}
+
+template <int kAxis>
+double abs_axis_mm(const Trace& trace, const Window& window) {
+  return mean_absolute_error_mm(trace, window, kAxis);
+}
+
+double least_z_mm(const Trace& trace, const Window& window) {
+  return distance_reach_mm(trace, window).least_mm;
+}
+
+double most_z_mm(const Trace& trace, const Window& window) {
+  return distance_reach_mm(trace, window).most_mm;
+}
+
+// At the frequencies of P001's path.
+template <int kAxis>
+double lag_axis_deg(const Trace& trace, const Window& window) {
+  return lag_deg(trace, window, kAxis, kAxis == 2 ? 1.0 / 60 : 0.05);
+}
+
+template <int kAxis>
+double cutoff_axis_hz(const Trace& trace, const Window& window) {
+  return cutoff_hz(bode(trace, window, kAxis));
+}
+
+template <int kAxis>
+double quarter_axis_hz(const Trace& trace, const Window& window) {
+  return quarter_hz(bode(trace, window, kAxis));
+}
+
 std::string state_at(const Trace& trace, double time_s) {
   std::string state = "nothing heard";
   for (const TraceRow& row : trace.rows)
@@ -342,6 +377,25 @@ const std::vector<Measure>& measures() {
       {"throttle", "largest throttle that any drive obeyed, 0 to 1", throttle},
       {"in_view", "share of the time with the whole target in both images", in_view},
       {"releases", "how often the release line fired", releases},
+      {"mean_x_mm", "the truth's mean place along x of the hand", mean_axis_mm<0>},
+      {"mean_y_mm", "the same along y", mean_axis_mm<1>},
+      {"mean_z_mm", "the same along z", mean_axis_mm<2>},
+      {"least_z_mm", "the truth's least distance along z of the hand", least_z_mm},
+      {"most_z_mm", "the largest", most_z_mm},
+      {"abs_x_mm", "the truth's mean absolute distance from the goal along x", abs_axis_mm<0>},
+      {"abs_y_mm", "the same along y", abs_axis_mm<1>},
+      {"abs_z_mm", "the same along z", abs_axis_mm<2>},
+      {"fitness_kept", "least fitness of the found by the median of the first 30", fitness_kept},
+      {"lag_x_deg", "how far it lags behind the target at 0.05 Hz along x", lag_axis_deg<0>},
+      {"lag_y_deg", "the same along y", lag_axis_deg<1>},
+      {"lag_z_deg", "the same along z, at 1/60 Hz", lag_axis_deg<2>},
+      {"cutoff_x_hz", "where it follows by 3 dB less, for motion multisine, along x",
+       cutoff_axis_hz<0>},
+      {"cutoff_y_hz", "the same along y", cutoff_axis_hz<1>},
+      {"cutoff_z_hz", "the same along z", cutoff_axis_hz<2>},
+      {"quarter_x_hz", "where it follows by 90 degrees late, likewise", quarter_axis_hz<0>},
+      {"quarter_y_hz", "the same along y", quarter_axis_hz<1>},
+      {"quarter_z_hz", "the same along z", quarter_axis_hz<2>},
   };
   return all;
 }

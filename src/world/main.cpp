@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "src/world/album.hpp"
 #include "src/world/assets.hpp"
 #include "src/world/daemon_process.hpp"
+#include "src/world/paper_command.hpp"
 #include "src/world/reactions.hpp"
 #include "src/world/run_record.hpp"
 #include "src/world/scenario.hpp"
@@ -132,7 +134,7 @@ Command command() {
       .exit_codes =
           "0  all checks passed\n1  a check failed\n2  bad scenario or option\n"
           "3  the run broke off",
-      .see_also = "gannetd(8), gannet(1)"};
+      .see_also = "gannet-world-paper(1), gannetd(8), gannet(1)"};
 }
 
 int fail(int code, const std::string& text) {
@@ -261,6 +263,8 @@ int run(const Arguments& arguments, const std::string& program) {
 int main(int argc, char** argv) {
   using namespace gannet;
   const std::vector<std::string> args(argv + 1, argv + argc);
+  if (!args.empty() && args[0] == "paper")
+    return world::run_paper_command(argv[0], std::span(args).subspan(1));
   Arguments arguments;
   if (const auto code = begin_command(world::command(), args, arguments)) return *code;
   return world::run(arguments, argv[0]);

@@ -29,6 +29,7 @@ Motion::Motion(const MotionConfig& config, std::uint64_t seed) : config_(config)
   }
   if (config_.kind == "p001" || config_.kind == "sine") add_periodic();
   if (config_.kind == "random") add_random(seed);
+  if (config_.kind == "multisine") add_multisine();
 }
 
 void Motion::add_periodic() {
@@ -52,6 +53,30 @@ void Motion::add_random(std::uint64_t seed) {
       sines_[axis].push_back({amplitude / kSines, rate, 2 * kPi * random.uniform()});
     }
   }
+}
+
+void Motion::add_multisine() {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    const std::span<const double> frequencies = multisine_hz(axis);
+    const auto count = static_cast<double>(frequencies.size());
+    double k = 0;
+    for (const double frequency_hz : frequencies) {
+      const double rate = 2 * kPi * frequency_hz;
+      // Schroeder's phases (IEEE Trans. Inf. Theory 16, 1970) keep the peaks of the sum low.
+      const double phase = -kPi * k * (k + 1) / count;
+      const double by_acceleration = config_.sine_acceleration_mm_s2 / (rate * rate);
+      sines_[i].push_back({std::min(config_.amplitude_mm[i], by_acceleration) / 1000, rate, phase});
+      ++k;
+    }
+  }
+}
+
+std::span<const double> multisine_hz(int axis) {
+  static constexpr double kX[] = {0.05, 0.20, 0.35, 0.55, 0.85, 1.15, 1.55, 2.05, 2.65};
+  static constexpr double kY[] = {0.10, 0.25, 0.40, 0.65, 0.95, 1.25, 1.75, 2.15, 2.85};
+  static constexpr double kZ[] = {0.15, 0.30, 0.45, 0.70, 1.00, 1.35, 1.85, 2.35, 3.00};
+  return axis == 0 ? std::span(kX) : axis == 1 ? std::span(kY) : std::span(kZ);
 }
 
 double Motion::sum(std::size_t axis, double time_s) const {
@@ -94,12 +119,16 @@ void describe(Visitor& v, Waypoint& c) {
 }
 
 void describe(Visitor& v, MotionConfig& c) {
-  v.field("kind", c.kind,
-          {.choices = {"still", "p001", "sine", "random", "waypoints"},
-           .help = "How the target moves about its resting place; p001: as in that paper's "
-                   "tracking experiment."});
+  v.field(
+      "kind", c.kind,
+      {.choices = {"still", "p001", "sine", "random", "multisine", "waypoints"},
+       .help = "How the target moves about its resting place; p001: as in that paper's "
+               "tracking experiment; multisine: nine sines from 0.05 to 3 Hz along each axis."});
   v.field("amplitude_mm", c.amplitude_mm,
-          {.size = 3, .unit = "mm", .help = "Of x, y, z; for random the most that can be."});
+          {.size = 3,
+           .unit = "mm",
+           .help = "Of x, y, z; for random the most that can be; of multisine's slow "
+                   "sines, 0 for an axis at rest."});
   v.field("period_s", c.period_s,
           {.min = 0.1, .size = 3, .unit = "s", .help = "Of x, y, z and of the turns about them."});
   v.field("phase_deg", c.phase_deg, {.size = 3, .unit = "°", .help = "Of x, y, z at the start."});
@@ -107,6 +136,8 @@ void describe(Visitor& v, MotionConfig& c) {
           {.min = -80, .max = 80, .size = 3, .unit = "°", .help = "Turning about x, y, z."});
   v.field("bandwidth_hz", c.bandwidth_hz,
           {.min = 0.001, .max = 10, .unit = "Hz", .help = "Highest frequency of random."});
+  v.field("sine_acceleration_mm_s2", c.sine_acceleration_mm_s2,
+          {.min = 0.1, .max = 1e5, .unit = "mm/s²", .help = "Of multisine's quick sines, each."});
   v.field("start_s", c.start_s, {.min = 0, .unit = "s", .help = "The motion's clock starts then."});
   v.list("waypoint", c.waypoints, "A place and a time each, in order of time.");
 }

@@ -53,6 +53,8 @@ Simulation::Simulation(const Scenario& scenario, const SimulationOptions& option
   plant_->set_current(scenario.world_from_reference().rotation *
                       Eigen::Vector3d(current[0], current[1], current[2]) / 1000);
   trace_.period_s = to_seconds(period_);
+  trace_.reference_from_world = scenario.world_from_reference().inverse();
+  trace_.body_from_hand = *rig_.body_from_hand;
 }
 
 Simulation::~Simulation() = default;

@@ -59,6 +59,8 @@ struct TurnMark {
 struct Trace {
   int motors = 0;
   double period_s = 0.005;
+  Transform<Hand, World> reference_from_world;  // the hand at the vehicle's reference place
+  Transform<Body, Hand> body_from_hand;
   std::vector<TraceRow> rows;
   std::vector<Mark> marks;                 // events as they happened
   std::vector<TurnMark> turns;             // in order of time

@@ -12,6 +12,7 @@ mkdir -p "$out/man" "$out/reference"
 done
 "$bin/gannetd" --man-page >"$out/man/gannetd.8"
 "$bin/gannet-world" --man-page >"$out/man/gannet-world.1"
+"$bin/gannet-world" paper --man-page >"$out/man/gannet-world-paper.1"
 "$bin/gannet" --reference gannet.toml.5 >"$out/man/gannet.toml.5"
 "$bin/gannet" --reference gannet.toml.md >"$out/reference/gannet.toml.md"
 "$bin/gannet" --reference rig.md >"$out/reference/rig.md"

@@ -68,5 +68,17 @@ TEST(Poisson, agrees_with_published_values) {
   EXPECT_NEAR(poisson95(10).high, 18.390, 1e-3);
 }
 
+TEST(Statistics, the_mean_of_few_values_has_students_interval) {
+  const MeanInterval three = mean95(std::array<double, 3>{1, 2, 3});
+  EXPECT_NEAR(three.low, 2 - 4.3027 / std::sqrt(3.0), 1e-9);
+  EXPECT_NEAR(three.high, 2 + 4.3027 / std::sqrt(3.0), 1e-9);
+  std::array<double, 31> many = {};
+  for (std::size_t i = 0; i < many.size(); ++i) many[i] = static_cast<double>(i % 2);
+  // 30 degrees of freedom: t = 2.0423.
+  const double half = mean95(many).high - mean(many);
+  EXPECT_NEAR(half, 2.0423 * standard_deviation(many) / std::sqrt(31.0), 1e-4);
+  EXPECT_TRUE(std::isnan(mean95(std::array<double, 1>{5}).low));
+}
+
 }  // namespace
 }  // namespace gannet::report
