@@ -27,8 +27,8 @@ move() {  # PATH …: from gannet to gannet-world
     mv "$work/gannet/$path" "$work/gannet-world/$path"
   done
 }
-move usr/bin/gannet-world usr/share/man/man1/gannet-world.1 usr/share/gannet/scenarios \
-  usr/share/gannet/assets
+mapfile -t pages < <(cd "$work/gannet" && compgen -G 'usr/share/man/man1/gannet-world*.1')
+move usr/bin/gannet-world "${pages[@]}" usr/share/gannet/scenarios usr/share/gannet/assets
 units=$(cd "$work/gannet/usr/lib/systemd/system" && echo *.service)
 
 fill() {
