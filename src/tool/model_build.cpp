@@ -39,6 +39,13 @@ Command describe_model_build() {
                    .value = "FILE",
                    .help = "Picture of the photo's size, non-zero (or opaque) where the target "
                            "is."},
+                  {.name = "origin",
+                   .kind = ArgumentKind::kNumbers,
+                   .value = "U,V",
+                   .count = 2,
+                   .unit = "pixels",
+                   .help = "The point of the photo that poses are of: the target's origin. The "
+                           "middle of the silhouette's box unless told."},
                   {.name = "points",
                    .kind = ArgumentKind::kInteger,
                    .value = "N",
@@ -109,11 +116,17 @@ Result<vision::PhotoPatch> build(const Arguments& arguments) {
   const hal::ImageView mask = photos->mask ? photos->mask->view() : hal::ImageView{};
   const std::string subject =
       arguments.text("target") + (photos->mask ? " with " + arguments.text("mask") : "");
+  std::optional<Eigen::Vector2d> origin;
+  if (arguments.given("origin")) {
+    const auto uv = arguments.numbers("origin");
+    origin = Eigen::Vector2d(uv[0], uv[1]);
+  }
   auto patch = vision::cut_out({.target = photos->target.view(),
                                 .background = photos->background ? &background : nullptr,
                                 .mask = photos->mask ? &mask : nullptr,
                                 .distance_m = arguments.number("distance-mm") / 1000,
-                                .name = subject},  // what an error is about
+                                .name = subject,  // what an error is about
+                                .origin_px = origin},
                                rig->left);
   if (patch) patch->name = arguments.text("name");
   return patch;

@@ -139,8 +139,16 @@ Result<PhotoPatch> cut_out(const PhotoInput& input, const Intrinsics& camera) {
   patch.distance_m = input.distance_m;
   patch.fx = camera.fx;
   patch.fy = camera.fy;
-  patch.centre_px = {(box.left + box.right) / 2.0 - crop.left,
-                     (box.top + box.bottom) / 2.0 - crop.top};
+  const Eigen::Vector2d corner(crop.left, crop.top);
+  patch.centre_px = Eigen::Vector2d(box.left + box.right, box.top + box.bottom) / 2 - corner;
+  if (input.origin_px) {
+    const Eigen::Vector3d ray = camera.ray(*input.origin_px);
+    patch.centre_px =
+        Eigen::Vector2d(camera.fx * ray.x() + camera.cx, camera.fy * ray.y() + camera.cy) - corner;
+    const bool is_near = patch.centre_px.x() >= 0 && patch.centre_px.x() <= patch.width - 1 &&
+                         patch.centre_px.y() >= 0 && patch.centre_px.y() <= patch.height - 1;
+    if (!is_near) return problem(input.name, "the origin must lie on the target or close to it");
+  }
   patch.size_m = {(box.right - box.left + 1) * input.distance_m / camera.fx,
                   (box.bottom - box.top + 1) * input.distance_m / camera.fy};
   patch.background = mean_colour(silhouette->background);

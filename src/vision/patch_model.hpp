@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -80,11 +81,13 @@ struct PhotoInput {
   const hal::ImageView* mask = nullptr;  // its Y plane counts
   double distance_m = 0.4;
   std::string name;
+  // The target's origin, pixels of the photo. Nothing: the middle of the silhouette's box.
+  std::optional<Eigen::Vector2d> origin_px = std::nullopt;
 };
 
 // Finds the silhouette (scan from the four corners against the background's mean hue, P001 §2.2,
 // or the mask) and crops. Errors: sizes differ, background equals target, empty silhouette,
-// distance not positive.
+// distance not positive, an origin away from the target.
 Result<PhotoPatch> cut_out(const PhotoInput& input, const Intrinsics& camera);
 
 }  // namespace gannet::vision

@@ -43,6 +43,7 @@ vision::PatchModel model_of(const TargetPhoto& photo, const Intrinsics& camera, 
   input.mask = &mask_view;
   input.distance_m = 0.4;
   input.name = name;
+  input.origin_px = Eigen::Vector2d(camera.cx, camera.cy);
   return vision::make_patch_model(vision::cut_out(input, camera).value(), {}).value();
 }
 

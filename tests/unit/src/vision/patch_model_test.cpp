@@ -50,6 +50,20 @@ TEST_F(Photo, is_cut_out_by_a_mask_to_the_pixel) {
   EXPECT_NEAR(patch->size_m.y(), scene.size_m.y(), 2 * 0.4 / 320);
 }
 
+TEST_F(Photo, has_its_origin_where_one_is_given) {
+  const auto before = cut_out(input, scene.rig.left);
+  const Intrinsics& camera = scene.rig.left;
+  input.origin_px = Eigen::Vector2d(camera.cx + 8, camera.cy - 4);
+  const auto after = cut_out(input, camera);
+  ASSERT_TRUE(before && after);
+  const Eigen::Vector2d moved = after->centre_px - before->centre_px;
+  // The silhouette's own middle is known to about a pixel.
+  EXPECT_LT((moved - Eigen::Vector2d(8, -4)).norm(), 2) << moved.transpose();
+  EXPECT_EQ(before->size_m, after->size_m);
+  input.origin_px = Eigen::Vector2d(0, 0);
+  EXPECT_FALSE(cut_out(input, camera));
+}
+
 TEST_F(Photo, that_equals_its_background_is_refused) {
   input.background = &input.target;
   const auto patch = cut_out(input, scene.rig.left);
