@@ -16,6 +16,10 @@ struct Line {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // z = 1
 
   Eigen::Vector3d at_depth(double z) const { return origin + direction * (z - origin.z()); }
+  // Where it meets the plane normal · p = distance.
+  Eigen::Vector3d at_plane(const Eigen::Vector3d& normal, double distance) const {
+    return origin + direction * (distance - normal.dot(origin)) / normal.dot(direction);
+  }
 };
 
 struct FlatPort {

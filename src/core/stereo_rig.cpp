@@ -135,6 +135,15 @@ Vector2d Intrinsics::distort(const Vector2d& n) const {
   return n;
 }
 
+Vector2d Intrinsics::magnification() const {
+  const double by_port = port ? port->water_index / port->air_index : 1;
+  return {fx * by_port, fy * by_port};
+}
+
+Vector3d Intrinsics::pupil() const {
+  return port ? Vector3d(port->pupil_m() * port->normal) : Vector3d::Zero();
+}
+
 double Intrinsics::valid_radius() const {
   if (distortion == Distortion::kNone) return std::numeric_limits<double>::infinity();
   const bool fisheye = distortion == Distortion::kFisheye;
@@ -246,8 +255,13 @@ void check_port(const std::string& name, const Intrinsics& camera, Problems& pro
   check_index("glass_index", port.glass_index);
   check_index("water_index", port.water_index);
   if (problems.size() > before) return;  // the next question needs the answers above
-  if (!camera.line({camera.cx, camera.cy}))
-    refuse("normal", "lets no light come to the middle of the image");
+  // Angles grow towards the corners: where light comes to them, it comes to all pixels.
+  for (const double u : {0.0, camera.width - 1.0}) {
+    for (const double v : {0.0, camera.height - 1.0}) {
+      if (camera.line({u, v})) continue;
+      return refuse("normal", "lets no light come to a corner of the image");
+    }
+  }
 }
 
 void check_rotation(const std::string& key, const Eigen::Quaterniond& rotation,

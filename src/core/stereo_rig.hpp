@@ -35,7 +35,8 @@ struct Intrinsics {
   // is behind the camera or the port, or beyond where the distortion model is one-to-one.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const;
   // Where the points are that a pixel may show; the inverse of project. Without a port from the
-  // camera's centre; with one from the outer face of its glass, empty where no light comes from.
+  // camera's centre; with one from the outer face of its glass, empty where no light comes from:
+  // in no pixel of a rig that passed check().
   std::optional<Line> line(const Eigen::Vector2d& pixel) const;
   // The lens alone. project_ray: pixel of a direction in air. ray: (x, y, 1) through a pixel; its
   // inverse, by iteration.
@@ -43,6 +44,12 @@ struct Intrinsics {
   Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;
   // Distorted normalised coordinates of undistorted ones.
   Eigen::Vector2d distort(const Eigen::Vector2d& normalised) const;
+  // Pixels that a thing near the axis is wide, times its distance over its width: fx and fy, and
+  // more of them in water behind a port.
+  Eigen::Vector2d magnification() const;
+  // Where lines near the axis meet, in the optical frame: the camera's centre, or before or behind
+  // it where a port bends them.
+  Eigen::Vector3d pupil() const;
   // The largest radius (normalised, undistorted) up to which distort is one-to-one.
   double valid_radius() const;
 };

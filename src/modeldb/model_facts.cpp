@@ -152,16 +152,16 @@ std::optional<Vector6d> least_sigma(const vision::PhotoPatch& patch, const Stere
       if (patch.mask[cell(patch, x, y)] == 0) continue;
       const Vector2d at = place_of(patch, x, y);
       Eigen::Matrix<double, 3, 2> slope;
-      if (!slopes(patch, at, depth_m / rig.left.fx, slope)) continue;
+      if (!slopes(patch, at, depth_m / rig.left.magnification().x(), slope)) continue;
       const Vector3d point = pose({at.x(), at.y(), 0});
       for (const bool left : {true, false}) {
         const Intrinsics& camera = left ? rig.left : rig.right;
         if (!inside(camera, left ? point : rig.right_from_left(point))) continue;
-        const Vector3d origin = left ? Vector3d::Zero().eval() : left_from_right.translation;
+        const Vector3d origin = left ? camera.pupil() : left_from_right(camera.pupil());
         const Eigen::Matrix<double, 3, 6> j = slope * slide(pose, origin, point - origin);
         // Camera pixels for each pixel of the photo.
-        const double pixels = camera.fx * camera.fy / (depth_m * depth_m) * patch.distance_m *
-                              patch.distance_m / (patch.fx * patch.fy);
+        const double pixels = camera.magnification().prod() / (depth_m * depth_m) *
+                              patch.distance_m * patch.distance_m / (patch.fx * patch.fy);
         information += j.transpose() * j * (pixels / variance);
       }
     }

@@ -90,11 +90,12 @@ struct Interval {
   double high;
 };
 
-// Where the ray of a camera's pixel meets the plane at depth z of the left camera.
+// Where the line of sight of a camera's pixel meets the plane at depth z of the left camera.
 Eigen::Vector2d on_plane(const Intrinsics& camera, const Transform<LeftCamera, RightCamera>& place,
                          const Eigen::Vector2d& pixel, double z) {
-  const Eigen::Vector3d ray = place.rotation * camera.ray(pixel);
-  return (place.translation + ray * (z - place.translation.z()) / ray.z()).head<2>();
+  const Line sight = camera.line(pixel).value_or(Line{});
+  const Eigen::Vector3d ray = place.rotation * sight.direction, origin = place(sight.origin);
+  return (origin + ray * (z - origin.z()) / ray.z()).head<2>();
 }
 
 // What both cameras see along one axis (0: x, 1: y) through the middle of their images.

@@ -83,8 +83,8 @@ std::vector<Segment> outline_of(const vision::Rectangle& r, const Intrinsics& le
   const Vector3d normal = pose.rotation * Vector3d::UnitZ();
   const double distance = normal.dot(pose.translation);
   const auto on_target = [&](double u, double v) -> Vector2d {
-    const Vector3d ray = left.ray({u, v});
-    return pose.inverse()(ray * distance / normal.dot(ray)).head<2>();
+    const Line sight = left.line({u, v}).value_or(Line{});
+    return pose.inverse()(sight.at_plane(normal, distance)).head<2>();
   };
   const double x0 = r.x - 0.5, x1 = x0 + r.width, y0 = r.y - 0.5, y1 = y0 + r.height;
   const Vector2d a = on_target(x0, y0), b = on_target(x1, y0), c = on_target(x1, y1),

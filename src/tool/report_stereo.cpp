@@ -31,8 +31,9 @@ bool is_rectified(const StereoRig& rig) {
   const Intrinsics& l = rig.left;
   const Intrinsics& r = rig.right;
   const Vector3d t = rig.right_from_left.translation;
-  return l.fx == r.fx && l.fy == r.fy && l.cy == r.cy && l.distortion == Distortion::kNone &&
-         r.distortion == Distortion::kNone && t.x() < 0 && t.y() == 0 && t.z() == 0 &&
+  return !l.port && !r.port && l.fx == r.fx && l.fy == r.fy && l.cy == r.cy &&
+         l.distortion == Distortion::kNone && r.distortion == Distortion::kNone && t.x() < 0 &&
+         t.y() == 0 && t.z() == 0 &&
          rig.right_from_left.rotation.angularDistance(Eigen::Quaterniond::Identity()) < 1e-9;
 }
 

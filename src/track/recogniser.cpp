@@ -25,9 +25,20 @@ constexpr int kPlaceCandidates = 24;  // of place(), about the hint
 
 double radians(double degrees) { return degrees * 3.14159265358979323846 / 180; }
 
-SearchVolume volume_of(const TrackConfig& c) {
-  return {c.z_min_m,        c.z_max_m,           c.half_width_x_m,
-          c.half_width_y_m, radians(c.tilt_deg), radians(c.roll_deg)};
+// What a rectangle's rays come from, in the left camera's frame: its centre, or its port's pupil.
+Eigen::Vector3d eye_of(const StereoRig& rig, TargetKind kind) {
+  return kind == TargetKind::kRectangle ? rig.left.pupil() : Eigen::Vector3d::Zero();
+}
+
+// The rig with the left frame's origin moved.
+StereoRig seen_from(StereoRig rig, const Eigen::Vector3d& eye) {
+  rig.right_from_left.translation = rig.right_from_left(eye);
+  return rig;
+}
+
+SearchVolume volume_of(const TrackConfig& c, const Eigen::Vector3d& eye) {
+  return {c.z_min_m - eye.z(), c.z_max_m - eye.z(), c.half_width_x_m,
+          c.half_width_y_m,    radians(c.tilt_deg), radians(c.roll_deg)};
 }
 
 // Of a pose that is the search's own: about the median errors of the papers' votes, which have no
@@ -52,9 +63,11 @@ Matrix6d spread(const Transform<LeftCamera, Target>& pose,
 Recogniser::Recogniser(const TrackConfig& config, const StereoRig& rig, TargetKind kind,
                        int max_workers)
     : config_(config),
-      rig_(rig),
+      eye_(eye_of(rig, kind)),
+      optics_(eye_.isZero() ? rig : seen_from(rig, eye_)),
+      rig_(optics_.rig),
       kind_(kind),
-      space_(rig, volume_of(config)),
+      space_(rig, volume_of(config, eye_)),
       relief_(kind == TargetKind::kModel && config.relief ? max_points() : 0),
       genes_(kBatch * 8),
       hypotheses_(kBatch),
@@ -80,7 +93,8 @@ Result<std::unique_ptr<Recogniser>> Recogniser::create(const TrackConfig& config
     return Error{"the search range in z must be positive and increasing"};
   }
   std::unique_ptr<Recogniser> made(new Recogniser(config, rig, kind, max_workers));
-  auto fitness = vision::make_fitness(config.fitness, kind == TargetKind::kRectangle, rig, *chosen);
+  auto fitness =
+      vision::make_fitness(config.fitness, kind == TargetKind::kRectangle, made->rig_, *chosen);
   if (!fitness) return fitness.error();
   made->fitness_ = std::move(*fitness);
   auto optimiser = search::make_optimiser(config.optimiser, made->space_.dimension(), config.search,
@@ -134,7 +148,7 @@ bool Recogniser::set_model(const vision::PatchModel& model) {
   target_.background_hue = model.background_hue;
   spacing_ = model.spacing_m;
   size_m_ = model.size_m;
-  const double f = rig_.left.fx;
+  const double f = rig_.left.magnification().x();
   const double area = model.spacing_m * model.spacing_m * model.inside_count;
   const double middle = std::sqrt(config_.z_min_m * config_.z_max_m);
   optimiser_->reset(static_cast<std::uint64_t>(config_.seed));
@@ -160,7 +174,8 @@ bool Recogniser::refresh_rectangle(const vision::Rectangle& r, const vision::Pre
   const int step = std::max(1, static_cast<int>(std::ceil(std::sqrt(area / kRectanglePoints))));
   const int band = std::max(step, static_cast<int>(0.15 * std::sqrt(area)));
   const Eigen::Vector2d centre(r.x + (r.width - 1) / 2.0, r.y + (r.height - 1) / 2.0);
-  centre_ray_ = rig_.left.ray(centre);
+  aim_ = level_aim_ = {0, 0, 1 / std::sqrt(config_.z_min_m * config_.z_max_m)};
+  centre_ray_ = ray_of(centre, aim_);
   space_.fix_ray(centre_ray_);
   points_.clear();
   // S_out is Pb3DP's; the correlation goes without: what is beside the patch may lie elsewhere.
@@ -173,7 +188,7 @@ bool Recogniser::refresh_rectangle(const vision::Rectangle& r, const vision::Pre
         if (x < 0 || y < 0 || x >= eye.width || y >= eye.height) continue;
         const bool in_rectangle = x >= r.x && y >= r.y && x < r.x + r.width && y < r.y + r.height;
         if (in_rectangle != inside || points_.size() >= points_.capacity()) continue;
-        const Eigen::Vector3d ray = rig_.left.ray({x, y});
+        const Eigen::Vector3d ray = ray_of({x, y}, aim_);
         const auto at = static_cast<std::size_t>(y * eye.width + x);
         points_.push_back(
             {static_cast<float>(ray.x()),
@@ -184,7 +199,7 @@ bool Recogniser::refresh_rectangle(const vision::Rectangle& r, const vision::Pre
       }
     }
   }
-  spacing_ = step / rig_.left.fx;
+  spacing_ = step / rig_.left.magnification().x();
   return assign_levels(std::sqrt(area), step);
 }
 
@@ -261,7 +276,9 @@ Recognition Recogniser::recognise(const vision::PreparedFrame& frame,
 
   watch_is_seeded_ = false;  // by what this search comes across
   std::array<float, 8> best = {};
-  if (hint != nullptr) space_.encode(*hint, best);
+  if (hint != nullptr) {
+    space_.encode({hint->rotation, hint->translation - eye_}, best);
+  }
   optimiser_->begin_frame({best.data(), hint != nullptr ? dimension : 0});
   std::fill(rivals_.begin(), rivals_.end(), Rival{-1, {}, {}});
   double spent = 0;
@@ -319,7 +336,7 @@ Transform<LeftCamera, Target> Recogniser::place(const vision::PreparedFrame& fra
   options.iterations = 5;
   const vision::PointSet& points = target_.level[static_cast<std::size_t>(level)];
   const vision::Refinement refined =
-      vision::refine_pose(rig_, points, frame, start.pose(), options);
+      vision::refine_pose(optics_, points, frame, start.pose(), options);
   const vision::Hypothesis answer = vision::Hypothesis::from(refined.left_from_target);
   return score_one(frame, level, answer) >= *best ? refined.left_from_target : start.pose();
 }
@@ -458,6 +475,49 @@ void Recogniser::try_mirrored(const vision::PreparedFrame& frame, Recognition& b
   best.evaluations = spent;
 }
 
+// The direction from eye_ (x, y, 1) to where a pixel's line of sight meets a plane (n/d). Behind a
+// port lines of sight do not meet in one point.
+Eigen::Vector3d Recogniser::ray_of(const Eigen::Vector2d& pixel,
+                                   const Eigen::Vector3d& plane) const {
+  if (!rig_.left.port) return rig_.left.ray(pixel);
+  Line sight = rig_.left.line(pixel).value_or(Line{});
+  sight.origin -= eye_;
+  const Eigen::Vector3d point = sight.at_plane(plane, 1);
+  return point / point.z();
+}
+
+// The ray for one plane of the pixel whose ray for another one this is.
+Eigen::Vector3d Recogniser::aimed(const Eigen::Vector3d& ray, const Eigen::Vector3d& from,
+                                  const Eigen::Vector3d& to) const {
+  if (!rig_.left.port) return ray;
+  const auto pixel = rig_.left.project(eye_ + ray / from.dot(ray));
+  return pixel ? ray_of(*pixel, to) : ray;
+}
+
+// Behind a port the rays are right for the plane alone that they were aimed at: aimed at the one
+// that was found, it is found once more.
+vision::Refinement Recogniser::refine_plane(const vision::PreparedFrame& frame,
+                                            const Transform<LeftCamera, Target>& start) {
+  vision::PointSet& points = target_.level[0];
+  const vision::Refinement first =
+      vision::refine_plane(optics_, points, frame, start, centre_ray_, {});
+  if (!rig_.left.port || !first.ok) return first;
+  const Eigen::Vector3d normal = first.left_from_target.rotation * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d plane = normal / normal.dot(first.left_from_target.translation);
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    if (std::isnan(points.x[i])) continue;
+    const Eigen::Vector3d ray = aimed(
+        {static_cast<double>(points.x[i]), static_cast<double>(points.y[i]), 1}, level_aim_, plane);
+    points.x[i] = static_cast<float>(ray.x());
+    points.y[i] = static_cast<float>(ray.y());
+  }
+  centre_ray_ = aimed(centre_ray_, level_aim_, plane);
+  space_.fix_ray(centre_ray_);
+  level_aim_ = plane;
+  return vision::refine_plane(optics_, points, frame, vision::pose_of_plane(plane, centre_ray_),
+                              centre_ray_, {});
+}
+
 double Recogniser::found_threshold() const {
   if (fitness_->needs().packed) return config_.found_fitness;
   if (target_.unscaled) return config_.found_votes;
@@ -483,8 +543,8 @@ Recognition Recogniser::finish(const vision::PreparedFrame& frame, const vision:
   const vision::Refinement refined =
       !config_.refine ? vision::Refinement{}
       : target_.unscaled
-          ? vision::refine_plane(rig_, points, frame, out.left_from_target, centre_ray_, options)
-          : vision::refine_pose(rig_, points, frame, out.left_from_target, options);
+          ? refine_plane(frame, out.left_from_target)
+          : vision::refine_pose(optics_, points, frame, out.left_from_target, options);
   bool has_optimum = !config_.refine;
   if (!config_.refine) out.covariance = search_covariance();
   if (refined.ok) {
@@ -529,7 +589,7 @@ Recognition Recogniser::finish(const vision::PreparedFrame& frame, const vision:
   out.size_m = size_m_;
   if (config_.relief && !target_.unscaled && out.refined) {
     const vision::Refinement solid =
-        relief_.refine(rig_, points, frame, refined, options, locked && out.found);
+        relief_.refine(optics_, points, frame, refined, options, locked && out.found);
     if (space_.contains(solid.left_from_target)) {
       out.left_from_target = solid.left_from_target;
       out.covariance = solid.covariance;
@@ -539,7 +599,7 @@ Recognition Recogniser::finish(const vision::PreparedFrame& frame, const vision:
     const Eigen::Vector3d n = out.left_from_target.rotation * Eigen::Vector3d::UnitZ();
     const double d = n.dot(out.left_from_target.translation);
     const auto on_plane = [&](double u, double v) -> Eigen::Vector3d {
-      const Eigen::Vector3d ray = rig_.left.ray({u, v});
+      const Eigen::Vector3d ray = ray_of({u, v}, n / d);
       return ray * d / n.dot(ray);
     };
     const double left = rectangle_.x - 0.5, right = left + rectangle_.width;
@@ -547,6 +607,7 @@ Recognition Recogniser::finish(const vision::PreparedFrame& frame, const vision:
     const double mid_u = (left + right) / 2, mid_v = (top + bottom) / 2;
     out.size_m = {(on_plane(right, mid_v) - on_plane(left, mid_v)).norm(),
                   (on_plane(mid_u, bottom) - on_plane(mid_u, top)).norm()};
+    out.left_from_target.translation += eye_;
   }
   return out;
 }
@@ -566,14 +627,16 @@ void Recogniser::score(const vision::PreparedFrame& frame,
 bool Recogniser::to_model(const Transform<LeftCamera, Target>& pose,
                           vision::PatchModel& out) const {
   if (!target_.unscaled || !has_target_) return false;
-  const auto target_from_left = pose.inverse();
-  const Eigen::Vector3d n = pose.rotation * Eigen::Vector3d::UnitZ();
-  const double d = n.dot(pose.translation);
+  const Transform<LeftCamera, Target> seen = {pose.rotation, pose.translation - eye_};
+  const auto target_from_left = seen.inverse();
+  const Eigen::Vector3d n = seen.rotation * Eigen::Vector3d::UnitZ();
+  const double d = n.dot(seen.translation);
   out.points.clear();
   out.inside_count = 0;
   for (const vision::ModelPoint& p : points_) {
     if (!p.inside) continue;
-    const Eigen::Vector3d ray(static_cast<double>(p.x_m), static_cast<double>(p.y_m), 1);
+    const Eigen::Vector3d ray =
+        aimed({static_cast<double>(p.x_m), static_cast<double>(p.y_m), 1}, aim_, n / d);
     const double along = n.dot(ray);
     if (along * d <= 0) return false;
     const Eigen::Vector3d on_target = target_from_left(ray * (d / along));

@@ -67,7 +67,7 @@ class Recogniser {
                      const Transform<LeftCamera, Target>& placed, bool with_watch,
                      Parallel& parallel);
 
-  // The score of one pose, and the same for many: the fitness distribution of P001 §2.5.
+  // The score of one pose of a model, and the same for many: the fitness distribution of P001 §2.5.
   void score(const vision::PreparedFrame& frame, std::span<const vision::Hypothesis> hypotheses,
              std::span<float> scores, Parallel& parallel);
 
@@ -96,9 +96,17 @@ class Recogniser {
   Recognition finish(const vision::PreparedFrame& frame, const vision::Hypothesis& best,
                      float best_score, double evaluations, bool locked = false);
   double found_threshold() const;
+  Eigen::Vector3d ray_of(const Eigen::Vector2d& pixel, const Eigen::Vector3d& plane) const;
+  Eigen::Vector3d aimed(const Eigen::Vector3d& ray, const Eigen::Vector3d& from,
+                        const Eigen::Vector3d& to) const;
+  vision::Refinement refine_plane(const vision::PreparedFrame& frame,
+                                  const Transform<LeftCamera, Target>& start);
 
   const TrackConfig config_;
-  const StereoRig rig_;
+  // Rectangles through a port: rays come from its pupil, and the left frame is there inside.
+  const Eigen::Vector3d eye_;
+  const vision::RigOptics optics_;
+  const StereoRig& rig_;
   const TargetKind kind_;
   SearchSpace space_;
   std::unique_ptr<vision::Fitness> fitness_;
@@ -113,6 +121,8 @@ class Recogniser {
   Eigen::Vector2d size_m_ = Eigen::Vector2d::Zero();
   vision::Rectangle rectangle_;
   Eigen::Vector3d centre_ray_ = Eigen::Vector3d::UnitZ();
+  // The planes (n/d) that the rays of points_ and of target_'s finest level are aimed at.
+  Eigen::Vector3d aim_ = Eigen::Vector3d::UnitZ(), level_aim_ = Eigen::Vector3d::UnitZ();
   // The best score in each cell of the searched x–y (or z) range at the coarsest level, and its
   // place: what the best wrong answer would score.
   struct Rival {

@@ -41,11 +41,10 @@ SearchSpace::Range SearchSpace::field_of_view(const StereoRig& rig, int axis) {
                         double& slope) {
     Eigen::Vector2d pixel(camera.cx, camera.cy);
     pixel(axis) = high ? (axis == 0 ? camera.width : camera.height) - 1 : 0;
-    Eigen::Vector3d direction = camera.ray(pixel);
-    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    auto [origin, direction] = camera.line(pixel).value_or(Line{});
     if (is_right) {
       direction = left_from_right.rotation * direction;
-      origin = left_from_right.translation;
+      origin = left_from_right(origin);
     }
     slope = direction(axis) / direction.z();
     offset = origin(axis) - origin.z() * slope;

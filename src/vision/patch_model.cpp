@@ -81,9 +81,10 @@ Result<Silhouette> silhouette_of(const PhotoInput& input, const YuvImage& photo,
                                  const Intrinsics& camera) {
   Silhouette out;
   std::optional<YuvImage> background;
-  if (input.background != nullptr) background = undistorted(to_yuv(*input.background), camera);
+  if (input.background != nullptr)
+    background = undistorted(to_yuv(*input.background), camera, input.distance_m);
   if (input.mask != nullptr) {
-    const YuvImage mask = undistorted(to_yuv(*input.mask), camera);
+    const YuvImage mask = undistorted(to_yuv(*input.mask), camera, input.distance_m);
     out.mask.resize(mask.yuv.size() / 3);
     for (std::size_t i = 0; i < out.mask.size(); ++i) out.mask[i] = mask.yuv[3 * i] > 0 ? 255 : 0;
   } else {
@@ -115,7 +116,7 @@ Result<Silhouette> silhouette_of(const PhotoInput& input, const YuvImage& photo,
 
 Result<PhotoPatch> cut_out(const PhotoInput& input, const Intrinsics& camera) {
   if (auto bad = check_input(input, camera)) return *bad;
-  const YuvImage photo = undistorted(to_yuv(input.target), camera);
+  const YuvImage photo = undistorted(to_yuv(input.target), camera, input.distance_m);
   auto silhouette = silhouette_of(input, photo, camera);
   if (!silhouette) return silhouette.error();
   const std::vector<std::uint8_t>& mask = silhouette->mask;
@@ -137,20 +138,21 @@ Result<PhotoPatch> cut_out(const PhotoInput& input, const Intrinsics& camera) {
     }
   }
   patch.distance_m = input.distance_m;
-  patch.fx = camera.fx;
-  patch.fy = camera.fy;
+  const Eigen::Vector2d f = camera.magnification();
+  patch.fx = f.x();
+  patch.fy = f.y();
   const Eigen::Vector2d corner(crop.left, crop.top);
   patch.centre_px = Eigen::Vector2d(box.left + box.right, box.top + box.bottom) / 2 - corner;
   if (input.origin_px) {
-    const Eigen::Vector3d ray = camera.ray(*input.origin_px);
-    patch.centre_px =
-        Eigen::Vector2d(camera.fx * ray.x() + camera.cx, camera.fy * ray.y() + camera.cy) - corner;
+    const Line sight = camera.line(*input.origin_px).value_or(Line{});
+    const Eigen::Vector2d at = sight.at_depth(input.distance_m).head<2>() / input.distance_m;
+    patch.centre_px = f.cwiseProduct(at) + Eigen::Vector2d(camera.cx, camera.cy) - corner;
     const bool is_near = patch.centre_px.x() >= 0 && patch.centre_px.x() <= patch.width - 1 &&
                          patch.centre_px.y() >= 0 && patch.centre_px.y() <= patch.height - 1;
     if (!is_near) return problem(input.name, "the origin must lie on the target or close to it");
   }
-  patch.size_m = {(box.right - box.left + 1) * input.distance_m / camera.fx,
-                  (box.bottom - box.top + 1) * input.distance_m / camera.fy};
+  patch.size_m = {(box.right - box.left + 1) * input.distance_m / f.x(),
+                  (box.bottom - box.top + 1) * input.distance_m / f.y()};
   patch.background = mean_colour(silhouette->background);
   patch.background_hue = mean_hue(silhouette->background);
   return patch;

@@ -44,15 +44,16 @@ YuvImage to_yuv(const hal::ImageView& view) {
   return out;
 }
 
-YuvImage undistorted(YuvImage image, const Intrinsics& camera) {
-  if (camera.distortion == Distortion::kNone) return image;
+YuvImage undistorted(YuvImage image, const Intrinsics& camera, double depth_m) {
+  if (camera.distortion == Distortion::kNone && !camera.port) return image;
+  const Eigen::Vector2d f = camera.magnification();
   YuvImage out = make(image.width, image.height);
   for (int row = 0; row < out.height; ++row) {
     for (int col = 0; col < out.width; ++col) {
       std::uint8_t* p = out.at(col, row);
       p[1] = p[2] = 128;
-      const auto pixel =
-          camera.project({(col - camera.cx) / camera.fx, (row - camera.cy) / camera.fy, 1});
+      const Eigen::Vector3d ray((col - camera.cx) / f.x(), (row - camera.cy) / f.y(), 1);
+      const auto pixel = camera.project(depth_m * ray);
       if (!pixel || pixel->x() < 0 || pixel->y() < 0 || pixel->x() > image.width - 1 ||
           pixel->y() > image.height - 1) {
         continue;

@@ -28,9 +28,10 @@ struct YuvImage {
 
 YuvImage to_yuv(const hal::ImageView& view);
 
-// The image that a pinhole camera with the same fx, fy, cx, cy would have taken (bilinear; black
-// where the camera saw nothing). The same image where there is no distortion.
-YuvImage undistorted(YuvImage image, const Intrinsics& camera);
+// The image that a pinhole camera with the same cx, cy and the camera's magnification as focal
+// lengths would have taken of things at this depth (bilinear; black where the camera saw nothing).
+// The same image where neither lens nor port bends light; the depth matters to a port alone.
+YuvImage undistorted(YuvImage image, const Intrinsics& camera, double depth_m);
 
 // Means over (2·radius + 1)² pixels, edges repeated.
 YuvImage box_blurred(const YuvImage& image, int radius);

@@ -138,12 +138,12 @@ Result<Bench> make_bench(const Scenario& scenario, const std::string& assets) {
   return bench;
 }
 
-// Where the ray of a left pixel meets the target's plane.
+// Where the line of sight of a left pixel meets the target's plane.
 Eigen::Vector3d on_plane(const StereoRig& rig, const Transform<LeftCamera, Target>& pose, double u,
                          double v) {
   const Eigen::Vector3d normal = pose.rotation * Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d ray = rig.left.ray({u, v});
-  return ray * normal.dot(pose.translation) / normal.dot(ray);
+  const Line sight = rig.left.line({u, v}).value_or(Line{});
+  return sight.at_plane(normal, normal.dot(pose.translation));
 }
 
 // Around the target in the left image, as a person would draw it.

@@ -69,8 +69,9 @@ Result<image_file::Raster8> picture_of(const TargetScenario& target, const std::
 }
 
 double photo_distance(const Intrinsics& camera, const Eigen::Vector2d& size_m) {
-  const double by_width = size_m.x() * camera.fx / (kFills * camera.width);
-  const double by_height = size_m.y() * camera.fy / (kFills * camera.height);
+  const Eigen::Vector2d f = camera.magnification();
+  const double by_width = size_m.x() * f.x() / (kFills * camera.width);
+  const double by_height = size_m.y() * f.y() / (kFills * camera.height);
   return std::max({kPhotoDistance_m, by_width, by_height});
 }
 

@@ -65,7 +65,7 @@ void draw_snow(const Scene& scene, double time_s, std::uint64_t seed,
       continue;
     const Float4 seen =
         water.seen(Float4{tint.x(), tint.y(), tint.z(), 1}, static_cast<float>(p.norm()));
-    draw_disc(*pixel, camera.fx * radius_m / p.z(), seen, camera, light);
+    draw_disc(*pixel, camera.magnification().x() * radius_m / p.z(), seen, camera, light);
   }
 }
 

@@ -155,9 +155,29 @@ struct FlatScene {
     Eigen::Vector3d origin, ray;  // in Σ_CL
   };
   Line line_of_sight(bool left, int col, int row) const {
-    if (left) return {Eigen::Vector3d::Zero(), rig.left.ray({col, row})};
+    const Line in_eye = sight(left ? rig.left : rig.right, {col, row});
+    if (left) return in_eye;
     const auto left_from_eye = rig.right_from_left.inverse();
-    return {left_from_eye.translation, left_from_eye.rotation * rig.right.ray({col, row})};
+    return {left_from_eye(in_eye.origin), left_from_eye.rotation * in_eye.ray};
+  }
+
+  // Through a port face by face, by Snell's law between vectors: not as src/core does it, so that a
+  // fault there cannot cancel itself.
+  static Line sight(const Intrinsics& camera, const Eigen::Vector2d& pixel) {
+    Line line = {Eigen::Vector3d::Zero(), camera.ray(pixel)};
+    if (!camera.port) return line;
+    const FlatPort& port = *camera.port;
+    const Eigen::Vector3d& n = port.normal;
+    line.ray.normalize();
+    const auto meet = [&](double distance, double from, double to) {
+      line.origin += line.ray * ((distance - n.dot(line.origin)) / n.dot(line.ray));
+      const double ratio = from / to, cosine = n.dot(line.ray);
+      const double cosine_after = std::sqrt(1 - ratio * ratio * (1 - cosine * cosine));
+      line.ray = ratio * line.ray + (cosine_after - ratio * cosine) * n;
+    };
+    meet(port.distance_m, port.air_index, port.glass_index);
+    meet(port.distance_m + port.thickness_m, port.glass_index, port.water_index);
+    return line;
   }
 
   bool hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& ray,
