@@ -79,6 +79,17 @@ Failure refused(const std::string& method, Cause cause) {
   return {ErrorCode::kRefused, method + " is refused: " + advice(cause), safety::to_string(cause)};
 }
 
+// Rolls at which a model looks like itself, degrees; "any"; empty: none.
+Json alike_json(const std::vector<vision::Symmetry>& symmetries, int model) {
+  constexpr double kDegrees = 180 / 3.14159265358979323846;
+  Json alike = Json::array();
+  if (model < 0 || static_cast<std::size_t>(model) >= symmetries.size()) return alike;
+  const vision::Symmetry& symmetry = symmetries[static_cast<std::size_t>(model)];
+  if (symmetry.any_roll) return "any";
+  for (const double roll : symmetry.rolls) alike.push_back(std::round(kDegrees * roll));
+  return alike;
+}
+
 Json target_choice_json(const TargetChoice& target, const std::vector<std::string>& models) {
   Json json;
   json["id"] = target.id;
@@ -194,6 +205,8 @@ Answer ControlCommands::status(const Json&) {
   json["camera"] = config.camera.kind;
   json["models"] = setting_.models;
   json["chosen"] = target_choice_json(target_, setting_.models);
+  if (target_.kind == TargetChoice::Kind::kModel)
+    json["chosen"]["alike_deg"] = alike_json(setting_.symmetries, target_.model);
   json["goal_mm"] = {params_.goal_x_m * 1e3, params_.goal_y_m * 1e3, params_.goal_z_m * 1e3};
   json["estimate"] = reports_->estimate_json(setting_.models, now);
   json["target"] = reports_->target_json(setting_.loaded->rig);

@@ -14,6 +14,7 @@
 #include "src/control/server.hpp"
 #include "src/daemon/reports.hpp"
 #include "src/servo/servo_config.hpp"
+#include "src/vision/patch_model.hpp"
 
 namespace gannet::daemon {
 
@@ -28,8 +29,9 @@ class ControlCommands {
  public:
   struct Setting {
     const config::LoadedConfig* loaded;
-    std::vector<std::string> models;  // names, by index
-    int image_width = 0;              // pixels
+    std::vector<std::string> models;                // names, by index
+    std::vector<vision::Symmetry> symmetries = {};  // of the models
+    int image_width = 0;                            // pixels
     int image_height = 0;
     const control::ServerCounters* server = nullptr;  // may be null
     std::function<TimePoint()> now;

@@ -83,6 +83,7 @@ Result<Parts> make_parts(const config::LoadedConfig& loaded) {
   Parts parts;
   auto models = load_models(loaded, parts.model_names);
   if (!models) return models.error();
+  for (const vision::PatchModel& model : *models) parts.model_symmetries.push_back(model.symmetry);
   auto tracker = track::TargetTracker::create(config.track, loaded.rig, std::move(*models));
   if (!tracker) return at_key("track", tracker.error());
   parts.tracker = std::move(*tracker);

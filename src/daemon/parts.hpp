@@ -20,6 +20,7 @@ namespace gannet::daemon {
 
 struct Parts {
   std::vector<std::string> model_names;
+  std::vector<vision::Symmetry> model_symmetries;  // by index, as the names
   std::unique_ptr<track::TargetTracker> tracker;
   std::unique_ptr<vehicle::Vehicle> vehicle;
   std::unique_ptr<servo::ServoLaw> law;

@@ -104,6 +104,7 @@ void Daemon::make_commands() {
   ControlCommands::Setting setting;
   setting.loaded = &loaded_;
   setting.models = parts_.model_names;
+  setting.symmetries = parts_.model_symmetries;
   setting.image_width = devices_.camera->width();
   setting.image_height = devices_.camera->height();
   setting.server = server_ ? &server_->counters() : nullptr;

@@ -1,9 +1,9 @@
 #include "src/modeldb/model_facts.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "src/vision/symmetry.hpp"
 
 namespace gannet::modeldb {
 namespace {
@@ -12,47 +12,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Pose = Transform<LeftCamera, Target>;
 
-constexpr double kDegree = std::numbers::pi / 180;
-
-std::size_t cell(const vision::PhotoPatch& p, int x, int y) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(p.width) +
-         static_cast<std::size_t>(x);
-}
-
-// On the target's plane, metres → whether the target is there; bilinear neighbours must all be.
-bool sample(const vision::PhotoPatch& p, const Vector2d& at_m, Vector3d& colour) {
-  const double u = p.centre_px.x() + at_m.x() * p.fx / p.distance_m;
-  const double v = p.centre_px.y() + at_m.y() * p.fy / p.distance_m;
-  if (!(u >= 0) || !(v >= 0) || !(u < p.width - 1) || !(v < p.height - 1)) return false;
-  const int x = static_cast<int>(u), y = static_cast<int>(v);
-  colour.setZero();
-  for (int i = 0; i < 4; ++i) {
-    const std::size_t at = cell(p, x + i % 2, y + i / 2);
-    if (p.mask[at] == 0) return false;
-    const double weight = (i % 2 == 0 ? 1 - (u - x) : u - x) * (i / 2 == 0 ? 1 - (v - y) : v - y);
-    for (int c = 0; c < 3; ++c) colour[c] += weight * p.yuv[3 * at + static_cast<std::size_t>(c)];
-  }
-  return true;
-}
-
-Vector3d shown(const vision::PhotoPatch& p, const Vector2d& at_m) {
-  Vector3d colour;
-  if (sample(p, at_m, colour)) return colour;
-  return Vector3d(static_cast<double>(p.background.y), static_cast<double>(p.background.u),
-                  static_cast<double>(p.background.v));
-}
-
 Vector2d place_of(const vision::PhotoPatch& p, int x, int y) {
   return {(x - p.centre_px.x()) * p.distance_m / p.fx, (y - p.centre_px.y()) * p.distance_m / p.fy};
-}
-
-// From the target's origin to its farthest pixel.
-double radius_of(const vision::PhotoPatch& p) {
-  double radius = 0;
-  for (int y = 0; y < p.height; ++y)
-    for (int x = 0; x < p.width; ++x)
-      if (p.mask[cell(p, x, y)] != 0) radius = std::max(radius, place_of(p, x, y).norm());
-  return radius;
 }
 
 // What a fixed line of sight meets of the target's plane, in the target's frame.
@@ -90,7 +51,8 @@ bool slopes(const vision::PhotoPatch& p, const Vector2d& at, double step_m,
   for (int axis = 0; axis < 2; ++axis) {
     const Vector2d step = step_m * Vector2d::Unit(axis);
     Vector3d before, behind;
-    if (!sample(p, at - step, before) || !sample(p, at + step, behind)) return false;
+    if (!vision::sample_photo(p, at - step, before) || !vision::sample_photo(p, at + step, behind))
+      return false;
     out.col(axis) = (behind - before) / (2 * step_m);
   }
   return true;
@@ -104,42 +66,6 @@ bool inside(const Intrinsics& camera, const Vector3d& point) {
 
 }  // namespace
 
-double likeness_when_rolled(const vision::PhotoPatch& patch, double angle_rad) {
-  constexpr int kHalf = 48;  // grid steps from the middle to the border
-  const double radius = radius_of(patch);
-  const Eigen::Rotation2Dd roll(angle_rad);
-  Vector3d a_sum = Vector3d::Zero(), b_sum = a_sum, aa = a_sum, bb = a_sum, ab = a_sum;
-  int n = 0;
-  for (int y = -kHalf; y <= kHalf; ++y) {
-    for (int x = -kHalf; x <= kHalf; ++x) {
-      const Vector2d at = Vector2d(x, y) * (radius / kHalf);
-      if (at.norm() > radius) continue;
-      const Vector3d a = shown(patch, at), b = shown(patch, roll * at);
-      a_sum += a, b_sum += b;
-      aa += a.cwiseProduct(a), bb += b.cwiseProduct(b), ab += a.cwiseProduct(b);
-      ++n;
-    }
-  }
-  const double variances =
-      (aa - a_sum.cwiseProduct(a_sum) / n).sum() * (bb - b_sum.cwiseProduct(b_sum) / n).sum();
-  if (!(variances > 1e-6)) return 0;
-  return (ab - a_sum.cwiseProduct(b_sum) / n).sum() / std::sqrt(variances);
-}
-
-std::vector<double> ambiguous_rolls(const vision::PhotoPatch& patch) {
-  constexpr int kStep = 5, kFirst = 30;
-  constexpr double kAlike = 0.9, kEqual = 1e-9;
-  std::vector<double> rolls;
-  for (int degrees = kFirst; degrees <= 180; degrees += kStep) {
-    const double here = likeness_when_rolled(patch, degrees * kDegree);
-    if (here > kAlike &&
-        here >= likeness_when_rolled(patch, (degrees - kStep) * kDegree) - kEqual &&
-        here >= likeness_when_rolled(patch, (degrees + kStep) * kDegree) - kEqual)
-      rolls.push_back(degrees * kDegree);
-  }
-  return rolls;
-}
-
 std::optional<Vector6d> least_sigma(const vision::PhotoPatch& patch, const StereoRig& rig,
                                     double depth_m, double noise_grey_levels) {
   const Pose pose = {Eigen::Quaterniond::Identity(),
@@ -149,7 +75,7 @@ std::optional<Vector6d> least_sigma(const vision::PhotoPatch& patch, const Stere
   Matrix6d information = Matrix6d::Zero();
   for (int y = 0; y < patch.height; ++y) {
     for (int x = 0; x < patch.width; ++x) {
-      if (patch.mask[cell(patch, x, y)] == 0) continue;
+      if (patch.mask[static_cast<std::size_t>(y * patch.width + x)] == 0) continue;
       const Vector2d at = place_of(patch, x, y);
       Eigen::Matrix<double, 3, 2> slope;
       if (!slopes(patch, at, depth_m / rig.left.magnification().x(), slope)) continue;

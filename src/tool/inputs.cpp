@@ -1,8 +1,10 @@
 #include "src/tool/inputs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <numbers>
 
 #include "platform/linux/cpu.hpp"
 #include "platform/linux/worker_pool.hpp"
@@ -163,6 +165,15 @@ Result<std::vector<std::string>> model_files(const std::string& folder) {
   if (error) return Error{folder + ": " + error.message()};
   std::sort(paths.begin(), paths.end());
   return paths;
+}
+
+std::string rolls_text(const vision::Symmetry& symmetry) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  if (symmetry.any_roll) return "any: the target looks the same however it is rolled";
+  std::string text;
+  for (const double roll : symmetry.rolls)
+    text += (text.empty() ? "" : ", ") + std::to_string(std::lround(kDegrees * roll));
+  return text.empty() ? "none" : text + " deg: the target cannot be told from itself there";
 }
 
 Result<std::unique_ptr<Parallel>> make_workers(int threads) {

@@ -34,6 +34,9 @@ Result<vision::PatchModel> read_model(const std::string& path, const track::Trac
 // The .gannet files of a folder, by name. Error: no such folder.
 Result<std::vector<std::string>> model_files(const std::string& folder);
 
+// "none", or at which rolls a target looks like itself.
+std::string rolls_text(const vision::Symmetry& symmetry);
+
 // A pool of so many threads, the caller among them; 0: as many as there are cores.
 Result<std::unique_ptr<Parallel>> make_workers(int threads);
 

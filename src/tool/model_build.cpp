@@ -162,6 +162,8 @@ int run(const Arguments& arguments) {
   const int outside = static_cast<int>(model->points.size()) - model->inside_count;
   std::printf("%s: %d points on the target, %d around it, %.1f x %.1f mm\n", model->name.c_str(),
               model->inside_count, outside, 1000 * model->size_m.x(), 1000 * model->size_m.y());
+  if (model->symmetry.exists())
+    std::printf("ambiguous rolls  %s\n", rolls_text(model->symmetry).c_str());
   std::printf("wrote %s and %s\n", arguments.text("output").c_str(),
               preview_path(arguments.text("output")).c_str());
   return 0;

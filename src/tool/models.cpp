@@ -9,6 +9,7 @@
 #include "src/report/table.hpp"
 #include "src/tool/inputs.hpp"
 #include "src/tool/offline.hpp"
+#include "src/vision/symmetry.hpp"
 
 namespace gannet::tool {
 namespace {
@@ -119,18 +120,12 @@ Json facts_of(const vision::PhotoPatch& patch, const vision::PatchModel& model) 
           {"points_inside", model.inside_count},
           {"points_around", static_cast<int>(model.points.size()) - model.inside_count},
           {"contrast_yuv", {contrast[0], contrast[1], contrast[2]}},
-          {"likeness_half_turn", modeldb::likeness_when_rolled(patch, std::numbers::pi)},
-          {"ambiguous_rolls_rad", modeldb::ambiguous_rolls(patch)}};
+          {"likeness_half_turn", vision::likeness_when_rolled(patch, std::numbers::pi)},
+          {"any_roll", model.symmetry.any_roll},
+          {"ambiguous_rolls_rad", model.symmetry.rolls}};
 }
 
-std::string rolls_text(const Json& rolls) {
-  std::string text;
-  for (const Json& roll : rolls)
-    text += (text.empty() ? "" : ", ") + report::number(kDegrees * roll.get<double>(), 0);
-  return text.empty() ? "none" : text + " deg: the target cannot be told from itself there";
-}
-
-void print_text(const Json& facts) {
+void print_text(const Json& facts, const vision::PatchModel& model) {
   const auto number = [](const Json& value, double scale, int decimals) {
     return report::number(scale * value.get<double>(), decimals);
   };
@@ -143,7 +138,7 @@ void print_text(const Json& facts) {
               number(contrast[1], 1, 1).c_str(), number(contrast[2], 1, 1).c_str());
   std::printf("alike at a half turn %s\nambiguous rolls  %s\n",
               number(facts["likeness_half_turn"], 1, 2).c_str(),
-              rolls_text(facts["ambiguous_rolls_rad"]).c_str());
+              rolls_text(model.symmetry).c_str());
   if (!facts.contains("least_sigma")) return;
   const Json& sigma = facts["least_sigma"];
   if (sigma.is_null()) {
@@ -174,7 +169,7 @@ int show(const Arguments& arguments) {
   if (arguments.flag("json")) {
     std::printf("%s\n", facts.dump().c_str());
   } else {
-    print_text(facts);
+    print_text(facts, *model);
   }
   return 0;
 }

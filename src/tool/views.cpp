@@ -59,7 +59,13 @@ std::string estimate_rows(const Json& status) {
 
 std::string chosen_text(const Json& chosen) {
   const std::string kind = word(member(chosen, "kind"));
-  if (kind == "model") return "model " + word(member(chosen, "model"));
+  if (kind == "model") {
+    const Json& alike = member(chosen, "alike_deg");
+    const std::string text = "model " + word(member(chosen, "model"));
+    if (alike == "any") return text + ", alike at any roll";
+    if (!alike.is_array() || alike.empty()) return text;
+    return text + ", alike when rolled by " + numbers(alike, 0) + " deg";
+  }
   if (kind == "roi") return "rectangle " + numbers(member(chosen, "roi"), 0);
   return kind;
 }

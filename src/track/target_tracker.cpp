@@ -5,6 +5,7 @@
 #include "src/track/recogniser.hpp"
 #include "src/track/track_config.hpp"
 #include "src/track/track_state.hpp"
+#include "src/vision/symmetry.hpp"
 
 namespace gannet::track {
 namespace {
@@ -79,6 +80,7 @@ class Tracker final : public TargetTracker {
       if (!in_view()) spend.stop = nullptr;
       r = recognise(predicted ? &*predicted : nullptr, spend, parallel);
     }
+    if (r.found) stay(r, parallel);
     fill(out, r);
     const bool jumped = r.found && predicted && doubted(r, *predicted);
     if (jumped) out.reason = TrackReason::kJumped;
@@ -209,6 +211,24 @@ class Tracker final : public TargetTracker {
     auto pose = last_pose_;
     pose.translation += speed_ * to_seconds(time - last_time_);
     return pose;
+  }
+
+  // Of poses that look alike to this frame, the one nearest to the last: a symmetric target must
+  // not flip. What fits clearly better is taken as it is.
+  void stay(Recognition& r, Parallel& parallel) {
+    if (seeking_ != Seeking::kModel || model_ < 0 || !has_last_) return;
+    const vision::Symmetry& symmetry = models_[static_cast<std::size_t>(model_)].symmetry;
+    if (!symmetry.exists()) return;
+    const auto pose = vision::nearest_equivalent(symmetry, r.left_from_target, last_pose_.rotation);
+    if (pose.rotation.coeffs() == r.left_from_target.rotation.coeffs()) return;
+    constexpr double kAlike = 0.05;  // of fitness: what pixels and the photo's own noise do
+    const vision::Hypothesis other = vision::Hypothesis::from(pose);
+    float score = 0;
+    for_models_->score(frame_, {&other, 1}, {&score, 1}, parallel);
+    r.evaluations += 1;
+    if (static_cast<double>(score) < r.fitness - kAlike) return;
+    r.left_from_target = pose;
+    r.fitness = static_cast<double>(score);
   }
 
   bool doubted(const Recognition& r, const Transform<LeftCamera, Target>& predicted) {

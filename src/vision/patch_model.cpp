@@ -5,6 +5,7 @@
 
 #include "src/vision/hue_value.hpp"
 #include "src/vision/silhouette.hpp"
+#include "src/vision/symmetry.hpp"
 #include "src/vision/yuv_image.hpp"
 
 namespace gannet::vision {
@@ -183,6 +184,7 @@ Result<PatchModel> make_patch_model(const PhotoPatch& photo, const BuildOptions&
   model.eye_m = {0, 0, -photo.distance_m};
   model.background = photo.background;
   model.background_hue = photo.background_hue;
+  model.symmetry = symmetry_of(photo);
   model.spacing_m = std::sqrt(inside * pixel_x * pixel_y / options.inside_points);
 
   const YuvImage image = {photo.width, photo.height, photo.yuv};

@@ -39,6 +39,13 @@ struct Rectangle {
   int height = 0;
 };
 
+// Turns about the target's normal after which it looks the same (symmetry.hpp).
+struct Symmetry {
+  bool any_roll = false;           // then rolls is empty
+  std::vector<double> rolls = {};  // radians in (0, π]; a roll and its opposite are one
+  bool exists() const { return any_roll || !rolls.empty(); }
+};
+
 struct PatchModel {
   std::string name;
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();  // bounding box of S_in
@@ -48,6 +55,7 @@ struct PatchModel {
   int inside_count = 0;
   Yuv background;                   // mean of the background
   std::uint8_t background_hue = 0;  // chroma-weighted circular mean, 256 steps
+  Symmetry symmetry = {};           // none of what a rectangle became
 };
 
 // A photo of the target with its silhouette, as a model file holds it. Pixels are the crop's.

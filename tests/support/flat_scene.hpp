@@ -64,8 +64,9 @@ struct FlatScene {
   Texture target{11, 0.05, 35};
   Texture ground{12, 0.11, 12};
   double ground_z = 1.4;
-  double noise = 1.0;  // grey levels
-  double bulge_m = 0;  // of the target's middle, towards who looks at it square: a dome
+  double noise = 1.0;    // grey levels
+  bool twofold = false;  // the target looks the same after half a turn
+  double bulge_m = 0;    // of the target's middle, towards who looks at it square: a dome
 
   FlatScene() {
     for (Intrinsics* camera : {&rig.left, &rig.right}) {
@@ -198,9 +199,13 @@ struct FlatScene {
              const Transform<LeftCamera, Target>* pose, double* colour) const {
     double x, y;
     if (pose != nullptr && hits(origin, ray, *pose, x, y)) {
-      colour[0] = 120 + target.at(0, x, y);
-      colour[1] = 100 + 0.6 * target.at(1, x, y);
-      colour[2] = 175 + 0.6 * target.at(2, x, y);
+      const auto shown = [&](int channel) {
+        const double here = target.at(channel, x, y);
+        return twofold ? 0.7 * (here + target.at(channel, -x, -y)) : here;
+      };
+      colour[0] = 120 + shown(0);
+      colour[1] = 100 + 0.6 * shown(1);
+      colour[2] = 175 + 0.6 * shown(2);
       return;
     }
     const Eigen::Vector3d hit = origin + ray * ((ground_z - origin.z()) / ray.z());

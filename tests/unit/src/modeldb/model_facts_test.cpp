@@ -4,12 +4,9 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 namespace gannet::modeldb {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A disc of 60 mm on a photo at 0.4 m; brightness by place in metres.
 vision::PhotoPatch disc(const std::function<double(double, double)>& brightness) {
@@ -35,9 +32,6 @@ vision::PhotoPatch disc(const std::function<double(double, double)>& brightness)
 double uneven(double x, double y) {
   return 120 + 50 * std::sin(200 * x + 1) + 40 * std::sin(230 * y - 1);
 }
-// Looks the same after half a turn, and only then.
-double twofold(double x, double y) { return 120 + 90 * std::sin(200 * x) * std::sin(230 * y); }
-
 StereoRig rig() {
   StereoRig out;
   for (Intrinsics* camera : {&out.left, &out.right}) {
@@ -48,33 +42,6 @@ StereoRig rig() {
   out.right_from_left.translation = {-0.12, 0, 0};
   out.hand_from_left.translation = {-0.06, 0, 0};
   return out;
-}
-
-TEST(ModelFacts, UnturnedATargetIsLikeItself) {
-  EXPECT_NEAR(likeness_when_rolled(disc(uneven), 0), 1, 1e-12);
-}
-
-TEST(ModelFacts, AnUnevenTargetIsNotAmbiguous) {
-  const auto patch =
-      disc([](double x, double y) { return 130 + 3000 * x + 20 * std::sin(150 * y); });
-  EXPECT_LT(likeness_when_rolled(patch, kPi), 0.9);
-  EXPECT_TRUE(ambiguous_rolls(patch).empty());
-}
-
-TEST(ModelFacts, AHalfTurnThatShowsTheSameIsFound) {
-  const auto rolls = ambiguous_rolls(disc(twofold));
-  ASSERT_EQ(rolls.size(), 1u);
-  EXPECT_NEAR(rolls[0], kPi, 1e-9);
-}
-
-TEST(ModelFacts, RingsAreAmbiguousAtEveryRoll) {
-  const auto patch =
-      disc([](double x, double y) { return 120 + 80 * std::cos(300 * std::hypot(x, y)); });
-  for (const double roll : {0.6, 1.5, 2.9}) EXPECT_GT(likeness_when_rolled(patch, roll), 0.97);
-}
-
-TEST(ModelFacts, NothingToBeSeenIsLikeNothing) {
-  EXPECT_EQ(likeness_when_rolled(disc([](double, double) { return 20.0; }), 1), 0);
 }
 
 TEST(ModelFacts, SigmaGrowsWithTheNoiseAndDepthIsWeakerThanPlace) {

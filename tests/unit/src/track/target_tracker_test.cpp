@@ -101,6 +101,43 @@ TEST_F(Tracking, what_leaps_away_from_the_prediction_is_found_in_the_same_frame)
   EXPECT_LT((got.left_from_target.translation - pose.translation).norm(), 0.005);
 }
 
+// Each search from nothing may find either of two poses that look alike.
+TEST_F(Tracking, a_symmetric_target_does_not_flip) {
+  config.roll_deg = 180;
+  scene.twofold = true;
+  const auto model = scene.model(400).value();
+  ASSERT_EQ(model.symmetry.rolls.size(), 1u);
+  int turned_over = 0;
+  Eigen::Quaterniond last;
+  for (int i = 0; i < 10; ++i) {
+    // Another seed finds another of the two.
+    config.seed = 1 + i;
+    auto another = TargetTracker::create(config, scene.rig, {model}).value();
+    ASSERT_TRUE(another->choose_model(0, 7));
+    std::swap(sut, another);
+    const auto pose = pose_at(0.05, 0.01, 0.6, 12, -9, 20 + i);
+    ASSERT_TRUE(see(&pose).found);
+    const PoseEstimate got = see(&pose);
+    ASSERT_TRUE(got.found);
+    turned_over += got.left_from_target.rotation.angularDistance(pose.rotation) > 1.5;
+  }
+  EXPECT_GT(turned_over, 0);  // else there is nothing to see here
+  EXPECT_LT(turned_over, 10);
+
+  ASSERT_TRUE(sut->choose_model(0, 7));
+  for (int i = 0; i < 60; ++i) {
+    const auto pose = pose_at(0.05, 0.01, 0.6, 12, -9, 3 * i);  // slowly half round
+    const PoseEstimate got = see(&pose);
+    ASSERT_TRUE(got.found) << i;
+    if (i > 0) {
+      EXPECT_LT(got.left_from_target.rotation.angularDistance(last), 0.1) << i;
+    }
+    last = got.left_from_target.rotation;
+    if (i % 6 != 5) continue;
+    for (int k = 0; k < 17; ++k) sut->no_frame(now += milliseconds(33));  // lost: from nothing
+  }
+}
+
 // A leap to another attitude: tilted the wrong way the model resembles the picture, too.
 TEST_F(Tracking, after_a_leap_no_wrong_attitude_is_kept) {
   if (!test::kCountsHeap) GTEST_SKIP() << "too slow under a sanitizer";
