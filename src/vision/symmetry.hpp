@@ -1,7 +1,7 @@
 // Symmetry: turns about its own normal by which a target cannot be told from itself. Found from the
-// photo when a model is built; a tracker then stays with one of the poses that look alike.
 // photo when a model is built; a tracker then stays with one of the poses that look alike. Finding
-// is start-up only, choosing RT safe.
+// is start-up only, choosing is RT safe.
+#pragma once
 
 #include <Eigen/Core>
 
