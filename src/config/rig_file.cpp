@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "src/config/loader.hpp"
@@ -11,6 +12,15 @@
 
 namespace gannet::config {
 namespace {
+
+struct PortTable {
+  std::vector<double> normal = {0, 0, 1};
+  double distance_m = FlatPort{}.distance_m;
+  double thickness_m = FlatPort{}.thickness_m;
+  double air_index = FlatPort{}.air_index;
+  double glass_index = FlatPort{}.glass_index;
+  double water_index = FlatPort{}.water_index;
+};
 
 struct CameraTable {
   int width = 640;
@@ -22,6 +32,7 @@ struct CameraTable {
   std::string distortion = "none";
   std::vector<double> coefficients;
   double time_offset_s = 0;
+  PortTable port;
 };
 
 struct MotionTable {
@@ -38,6 +49,29 @@ struct RigTables {
 };
 
 constexpr double kFar = 1e6;
+
+void describe(Visitor& v, PortTable& c) {
+  v.field("normal", c.normal,
+          {.min = -1.01,
+           .max = 1.01,
+           .size = 3,
+           .help = "Across the glass, into the water, in the camera's optical axes; length 1."});
+  v.field("distance_m", c.distance_m,
+          {.min = 0,
+           .max = 1,
+           .unit = "m",
+           .help = "From the camera's centre to the glass, along the normal."});
+  v.field("thickness_m", c.thickness_m,
+          {.min = 0, .max = 0.2, .unit = "m", .help = "Of the glass."});
+  v.field("air_index", c.air_index,
+          {.min = 1, .max = 2.5, .help = "Index of refraction inside the housing."});
+  v.field("glass_index", c.glass_index,
+          {.min = 1, .max = 2.5, .help = "Of the glass: acrylic 1.49, borosilicate 1.47."});
+  v.field("water_index", c.water_index,
+          {.min = 1,
+           .max = 2.5,
+           .help = "Of the water: fresh 1.333, sea 1.34; 1 where the housing looks into air."});
+}
 
 void describe(Visitor& v, CameraTable& c) {
   v.field("width", c.width, {.min = 16, .max = 16384, .unit = "px", .help = "Image width."});
@@ -60,6 +94,9 @@ void describe(Visitor& v, CameraTable& c) {
            .max = 1,
            .unit = "s",
            .help = "Added to the driver's time stamp to give the middle of the exposure."});
+  v.group("port", c.port,
+          "Optional: the flat port of a housing before the camera, which refracts. The keys above "
+          "are then those of the camera in air.");
 }
 
 void describe(Visitor& v, MotionTable& c) {
@@ -118,19 +155,30 @@ void require_all(Reading& r) {
   require(r, "right_from_left", motion);
   for (const char* optional : {"hand_from_left", "body_from_hand"})
     if (r.has(optional)) require(r, optional, motion);
+  for (const char* port : {"left.port", "right.port"})
+    if (r.has(port)) require(r, port, {"normal", "distance_m", "thickness_m"});
 }
 
-// The housing's refraction will be told there; a file that has it must not be taken for one that
-// has not.
+// A file that tells of a port in the wrong place must not be taken for one without.
 void refuse_port(TomlValue& root, Reading& r) {
   const auto at = std::find_if(root.members.begin(), root.members.end(),
                                [](const TomlValue& member) { return member.name == "port"; });
   if (at == root.members.end()) return;
   if (at->kind != TomlValue::Kind::kTable || !at->members.empty())
     r.problems.add({r.name, at->line},
-                   "port: refraction at a housing's port is not supported yet; remove the table "
-                   "and calibrate in water");
+                   "port: each camera has its own: write [left.port] and [right.port]");
   root.members.erase(at);
+}
+
+// Files carry few digits, so the length is made good; what is far from 1 is refused.
+FlatPort port_of(const PortTable& table, const std::string& key, Reading& r) {
+  const Eigen::Vector3d normal(table.normal[0], table.normal[1], table.normal[2]);
+  if (!(std::abs(normal.norm() - 1) < 2e-3)) {
+    r.refuse(key + ".normal", "is not a unit vector: its length is " + number_text(normal.norm()));
+    return {};
+  }
+  return {normal.normalized(), table.distance_m,  table.thickness_m,
+          table.air_index,     table.glass_index, table.water_index};
 }
 
 Intrinsics camera_of(const CameraTable& table, const std::string& key, Reading& r) {
@@ -142,6 +190,7 @@ Intrinsics camera_of(const CameraTable& table, const std::string& key, Reading& 
   camera.cx = table.cx;
   camera.cy = table.cy;
   camera.time_offset = from_seconds(table.time_offset_s);
+  if (r.has(key + ".port")) camera.port = port_of(table.port, key + ".port", r);
   std::size_t wanted = 0;
   std::string names;
   if (table.distortion == "brown") {

@@ -91,7 +91,8 @@ int print_reference(const std::string& name) {
     text =
         "# RIG files\n\nThe calibration of two cameras. The keys of [left], [right] and "
         "[right_from_left] must be given, all but distortion, coefficients and time_offset_s; "
-        "the defaults of the others are examples. Made from the program's own description by "
+        "the defaults of the others are examples. A [left.port] or [right.port] that is there "
+        "must tell normal, distance_m and thickness_m. Made from the program's own description by "
         "`make docs`; do not edit.\n" +
         config::rig_reference();
   if (name == "subcommands")

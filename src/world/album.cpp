@@ -6,10 +6,10 @@
 
 #include "platform/base/random.hpp"
 #include "platform/linux/whole_file.hpp"
+#include "src/config/rig_file.hpp"
 #include "src/image_file/image_file.hpp"
 #include "src/world/assets.hpp"
 #include "src/world/props.hpp"
-#include "src/world/run_files.hpp"
 
 namespace gannet::world {
 namespace {
@@ -168,7 +168,7 @@ Result<Album> make_album(const std::string& folder, const std::string& assets, i
   const Scenario scenario = album_scenario();
   if (auto made = make_folders(folder, pairs); !made) return made.error();
   const StereoRig rig = scenario.rig();
-  if (auto written = linux_os::write_file(folder + "/rig.toml", rig_text(rig)); !written)
+  if (auto written = linux_os::write_file(folder + "/rig.toml", config::rig_text(rig)); !written)
     return written.error();
   auto pictures = gather_pictures(scenario, assets);
   if (!pictures) return pictures.error();

@@ -108,7 +108,7 @@ Result<void> make_model(const TargetScenario& target, int texture, const StageTe
   input.distance_m = distance_m;
   input.name = target.name;
   // Where the stage has it: thin parts at its edge are less than half opaque and not in the mask.
-  input.origin_px = Eigen::Vector2d(camera.cx, camera.cy);
+  input.origin_px = camera.project({0, 0, distance_m});
   const auto patch = vision::cut_out(input, camera);
   if (!patch) return Error{"model of '" + target.name + "': " + patch.error().text};
   return modeldb::save_model(path, *patch);

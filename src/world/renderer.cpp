@@ -107,7 +107,7 @@ Renderer::Renderer(const StereoRig& rig, std::vector<Texture> textures,
       water_(Water{}) {
   for (const Intrinsics* camera : {&rig_.left, &rig_.right}) {
     const std::size_t pixels = at(camera->height, camera->width);
-    eyes_.push_back({*camera, RayTable(*camera), std::vector<Float4>(pixels), {}, {}, {}});
+    eyes_.push_back({*camera, SightTable(*camera), std::vector<Float4>(pixels), {}, {}, {}});
   }
 }
 
@@ -136,7 +136,7 @@ void Renderer::draw_rows(View& view, int first, int end) const {
   for (int y = first; y < end; ++y) {
     Float4* row = view.light.data() + at(y, width);
     std::fill(row, row + width, water_.endless());
-    for (const Surface& surface : view.surfaces) surface.draw_row(view.rays, y, water_, row);
+    for (const Surface& surface : view.surfaces) surface.draw_row(view.sights, y, water_, row);
   }
 }
 

@@ -58,7 +58,7 @@ class Renderer {
  private:
   struct View {
     Intrinsics camera;
-    RayTable rays;
+    SightTable sights;
     std::vector<Float4> light;
     std::vector<Surface> surfaces;
     Transform<World, LeftCamera> world_from_camera;  // of whichever eye

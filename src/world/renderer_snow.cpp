@@ -10,11 +10,9 @@ namespace {
 
 constexpr double kNearest_m = 0.05;  // nearer ones would be out of focus and fill the picture
 
-bool hidden(const std::vector<Surface>& surfaces, const Eigen::Vector3d& p) {
-  const float x = static_cast<float>(p.x() / p.z());
-  const float y = static_cast<float>(p.y() / p.z());
+bool hidden(const std::vector<Surface>& surfaces, const Eigen::Vector3d& p, const Sight& sight) {
   return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) {
-    const float depth = s.opaque_depth(x, y);
+    const float depth = s.opaque_depth(sight);
     return depth > 0 && static_cast<double>(depth) < p.z();
   });
 }
@@ -59,7 +57,11 @@ void draw_snow(const Scene& scene, double time_s, std::uint64_t seed,
     const Eigen::Vector3d p = camera_from_world(place + middle);
     if (p.z() < kNearest_m) continue;
     const auto pixel = camera.project(p);
-    if (!pixel || hidden(surfaces, p)) continue;
+    if (!pixel) continue;
+    const Sight sight = camera.port ? sight_of(camera, *pixel)
+                                    : Sight{static_cast<float>(p.x() / p.z()),
+                                            static_cast<float>(p.y() / p.z()), 0};
+    if (hidden(surfaces, p, sight)) continue;
     if (pixel->x() < -5 || pixel->y() < -5 || pixel->x() > camera.width + 5 ||
         pixel->y() > camera.height + 5)
       continue;

@@ -26,16 +26,37 @@ float log2_of(float x) {
 
 }  // namespace
 
-RayTable::RayTable(const Intrinsics& camera)
+Sight sight_of(const Intrinsics& camera, const Eigen::Vector2d& pixel) {
+  if (!camera.port) {
+    const Eigen::Vector3d ray = camera.ray(pixel);
+    return {static_cast<float>(ray.x()), static_cast<float>(ray.y()), 0};
+  }
+  const Eigen::Vector3d& axis = camera.port->normal;
+  const Line line = camera.line(pixel).value_or(Line{});
+  // Along the line to its place nearest the axis, which it meets: there all that is left of it is
+  // along the axis. A line along the axis meets it everywhere.
+  const Eigen::Vector3d away = line.origin - axis.dot(line.origin) * axis;
+  const Eigen::Vector3d turn = line.direction - axis.dot(line.direction) * axis;
+  const double square = turn.squaredNorm();
+  const double from = square < 1e-18
+                          ? camera.port->pupil_m()
+                          : axis.dot(line.origin - line.direction * (away.dot(turn) / square));
+  return {static_cast<float>(line.direction.x()), static_cast<float>(line.direction.y()),
+          static_cast<float>(from)};
+}
+
+SightTable::SightTable(const Intrinsics& camera)
     : columns_(static_cast<std::size_t>(camera.width) + 1) {
   const std::size_t size = columns_ * (static_cast<std::size_t>(camera.height) + 1);
   x_.reserve(size);
   y_.reserve(size);
+  if (camera.port) from_.reserve(size);
   for (int row = 0; row <= camera.height; ++row) {
     for (int column = 0; column <= camera.width; ++column) {
-      const Eigen::Vector3d ray = camera.ray({column, row});
-      x_.push_back(static_cast<float>(ray.x()));
-      y_.push_back(static_cast<float>(ray.y()));
+      const Sight sight = sight_of(camera, {column, row});
+      x_.push_back(sight.x);
+      y_.push_back(sight.y);
+      if (camera.port) from_.push_back(sight.from);
     }
   }
 }
@@ -62,7 +83,23 @@ Surface::Surface(const SceneObject& object, const Texture& texture,
   vx_ = vf.x(), vy_ = vf.y(), vz_ = vf.z();
   nx_ = nf.x(), ny_ = nf.y(), nz_ = nf.z();
   c_ = static_cast<float>(c);
+  if (camera.port) set_port(*camera.port, r, w, h);
   bound(object, rotation, translation, camera);
+}
+
+// From f·a instead of 0 (a: the port's axis) the line meets the plane at s = (n·t − f n·a) / n·d:
+// u, v and z are what they were, and f times another ratio of linear forms of d.
+void Surface::set_port(const FlatPort& port, const Eigen::Matrix3d& r, double w, double h) {
+  const Eigen::Vector3d& a = port.normal;
+  const Eigen::Vector3d n = r.col(2);
+  const auto put = [&](const Eigen::Vector3d& form, float* out) {
+    for (int k = 0; k < 3; ++k) out[k] = static_cast<float>(form[k]);
+  };
+  put((r.col(0).dot(a) * n - n.dot(a) * r.col(0)) / w, port_u_);
+  put((r.col(1).dot(a) * n - n.dot(a) * r.col(1)) / h, port_v_);
+  put(a.z() * n - n.dot(a) * Eigen::Vector3d::UnitZ(), port_z_);
+  has_port_ = true;
+  dry_m_ = static_cast<float>(port.distance_m + port.thickness_m);
 }
 
 // The rectangle of pixels that can be touched: all of them unless the whole outline is in front.
@@ -109,12 +146,11 @@ void Surface::set_caustics(const Caustics& caustics, const SceneObject& object) 
   }
 }
 
-Surface::Footprint Surface::footprint(const RayTable& rays, int column, int row) const {
-  const float* x = rays.x(row) + column;
-  const float* y = rays.y(row) + column;
-  const Hit here = hit(x[0], y[0]);
-  const Hit right = hit(x[1], y[1]);
-  const Hit below = hit(rays.x(row + 1)[column], rays.y(row + 1)[column]);
+Surface::Footprint Surface::footprint(const SightTable& sights, int column, int row) const {
+  const SightTable::Run run = sights.run(column, row);
+  const Hit here = hit(run[0]);
+  const Hit right = hit(run[1]);
+  const Hit below = hit(sights.run(column, row + 1)[0]);
   Footprint f = {{static_cast<float>(texture_->levels()), 1, 0, 0}, splat(1)};
   if (here.depth < kNearest_m || right.depth < kNearest_m || below.depth < kNearest_m) return f;
   const float ux = right.u - here.u, uy = below.u - here.u;
@@ -183,10 +219,11 @@ float Surface::gathered(float u, float v) const {
   return 1 + caustics_.strength * (4 * least - 1);
 }
 
-void Surface::draw_run(const float* x, const float* y, int count, const Footprint& a,
+void Surface::draw_run(const SightTable::Run& sights, int count, const Footprint& a,
                        const Footprint& b, const WaterTable& water, Float4* out) const {
   for (int i = 0; i < count; ++i) {
-    const Hit at = hit(x[i], y[i]);
+    const Sight sight = sights[i];
+    const Hit at = hit(sight);
     if (!(at.depth > kNearest_m)) continue;
     const float t = static_cast<float>(i) * (1.0f / kRun);
     const Float4 filter = a.filter + (b.filter - a.filter) * t;
@@ -197,27 +234,29 @@ void Surface::draw_run(const float* x, const float* y, int count, const Footprin
       const float g = gathered(at.u, at.v);
       light *= Float4{g, g, g, 1};
     }
-    const float range_m = at.depth * std::sqrt((x[i] * x[i] + y[i] * y[i]) + 1);
+    const float range_m =
+        (at.depth - dry_m_) * std::sqrt((sight.x * sight.x + sight.y * sight.y) + 1);
     out[i] = water.seen(light, range_m) + out[i] * splat(1 - light[3]);
   }
 }
 
-void Surface::draw_row(const RayTable& rays, int row, const WaterTable& water, Float4* out) const {
+void Surface::draw_row(const SightTable& sights, int row, const WaterTable& water,
+                       Float4* out) const {
   if (row < first_row_ || row >= end_row_ || first_column_ >= end_column_) return;
   const int start = first_column_ / kRun * kRun;  // nodes at the same columns in every row
-  Footprint left = footprint(rays, start, row);
+  Footprint left = footprint(sights, start, row);
   for (int column = start; column < end_column_; column += kRun) {
-    Footprint right = footprint(rays, std::min(column + kRun, columns_ - 1), row);
+    Footprint right = footprint(sights, std::min(column + kRun, columns_ - 1), row);
     const Float4 same = left.filter * right.filter;  // the axis has no sign of its own
     if (same[2] + same[3] < 0) right.filter *= Float4{1, 1, -1, -1};
-    draw_run(rays.x(row) + column, rays.y(row) + column, std::min(kRun, columns_ - column), left,
-             right, water, out + column);
+    draw_run(sights.run(column, row), std::min(kRun, columns_ - column), left, right, water,
+             out + column);
     left = right;
   }
 }
 
-float Surface::opaque_depth(float x, float y) const {
-  const Hit at = hit(x, y);
+float Surface::opaque_depth(const Sight& sight) const {
+  const Hit at = hit(sight);
   if (!(at.depth > kNearest_m)) return 0;
   if (tiled_) return at.depth;
   if (at.u < 0 || at.u > 1 || at.v < 0 || at.v > 1) return 0;

@@ -11,6 +11,7 @@
 #include "platform/linux/fd.hpp"
 #include "platform/linux/whole_file.hpp"
 #include "src/config/printer.hpp"
+#include "src/config/rig_file.hpp"
 #include "src/config/toml_reader.hpp"
 #include "src/config/value_text.hpp"
 
@@ -19,30 +20,6 @@ namespace {
 
 constexpr double kWheelMotor_rad_s = 300;  // of an AGV's
 constexpr double kFullSpeed_rad_s = 370;   // of the thruster at full throttle
-
-std::string camera_text(const std::string& name, const Intrinsics& camera) {
-  static const char* const kDistortions[] = {"none", "brown", "fisheye"};
-  static const int kCoefficients[] = {0, 5, 4};
-  const auto kind = static_cast<std::size_t>(camera.distortion);
-  const auto first = camera.coefficients.begin();
-  const std::vector<double> coefficients(first, first + kCoefficients[kind]);
-  return "[" + name + "]\nwidth = " + config::value_text(camera.width) +
-         "\nheight = " + config::value_text(camera.height) +
-         "\nfx = " + config::value_text(camera.fx) + "\nfy = " + config::value_text(camera.fy) +
-         "\ncx = " + config::value_text(camera.cx) + "\ncy = " + config::value_text(camera.cy) +
-         "\ndistortion = \"" + kDistortions[kind] +
-         "\"\ncoefficients = " + config::value_text(coefficients) + "\n\n";
-}
-
-template <class To, class From>
-std::string transform_text(const std::string& name, const Transform<To, From>& transform) {
-  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> r = transform.rotation.toRotationMatrix();
-  const Eigen::Vector3d& t = transform.translation;
-  return "[" + name +
-         "]\nrotation = " + config::value_text(std::vector<double>(r.data(), r.data() + 9)) +
-         "\ntranslation_m = " + config::value_text(std::vector<double>{t.x(), t.y(), t.z()}) +
-         "\n\n";
-}
 
 // What a person would enter for this vehicle: the published figures of body and thrusters.
 vehicle::RovConfig rov_config(const RovPlantConfig& plant) {
@@ -119,14 +96,6 @@ RunFiles::~RunFiles() {
   if (temporary_) std::filesystem::remove_all(folder_, ignored);
 }
 
-std::string rig_text(const StereoRig& rig) {
-  std::string text = camera_text("left", rig.left) + camera_text("right", rig.right) +
-                     transform_text("right_from_left", rig.right_from_left) +
-                     transform_text("hand_from_left", rig.hand_from_left);
-  if (rig.body_from_hand) text += transform_text("body_from_hand", *rig.body_from_hand);
-  return text;
-}
-
 config::DaemonConfig daemon_config(const Scenario& scenario, const RunFiles& files,
                                    const std::vector<std::string>& models, bool stepped) {
   config::DaemonConfig c;
@@ -162,7 +131,7 @@ config::DaemonConfig daemon_config(const Scenario& scenario, const RunFiles& fil
 
 Result<void> write_files(const Scenario& scenario, const RunFiles& files,
                          const config::DaemonConfig& config) {
-  const auto rig = linux_os::write_file(files.rig(), rig_text(scenario.rig()));
+  const auto rig = linux_os::write_file(files.rig(), config::rig_text(scenario.rig()));
   if (!rig) return rig.error();
   return linux_os::write_file(files.config(), config::commented_file(config));
 }

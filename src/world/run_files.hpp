@@ -48,6 +48,4 @@ Result<void> write_files(const Scenario& scenario, const RunFiles& files,
 // Writes what the scenario sets, for a daemon that is not started with it: a drop-in of the config.
 Result<void> write_settings(const Scenario& scenario, const RunFiles& files);
 
-std::string rig_text(const StereoRig& rig);  // as a RIG file
-
 }  // namespace gannet::world

@@ -81,6 +81,12 @@ StereoRig Scenario::rig() const {
   rig.left.fx = rig.left.fy = camera.focal_px;
   rig.left.cx = (camera.width - 1) / 2.0;
   rig.left.cy = (camera.height - 1) / 2.0;
+  if (camera.port.thickness_mm > 0) {
+    FlatPort& port = rig.left.port.emplace();
+    port.normal = turn({camera.port.tilt_deg[0], camera.port.tilt_deg[1], 0}) * port.normal;
+    port.distance_m = camera.port.distance_mm / 1000;
+    port.thickness_m = camera.port.thickness_mm / 1000;
+  }
   rig.right = rig.left;
   rig.right_from_left.translation = {-camera.baseline_mm / 1000, 0, 0};
   rig.hand_from_left.translation = {-camera.baseline_mm / 2000, 0, 0};
@@ -124,6 +130,15 @@ std::string find_scenario(const std::string& name, const std::string& program) {
   return name + ".toml";
 }
 
+void describe(Visitor& v, PortConfig& c) {
+  v.field("thickness_mm", c.thickness_mm,
+          {.min = 0, .max = 100, .unit = "mm", .help = "Of its glass; 0: there is no port."});
+  v.field("distance_mm", c.distance_mm,
+          {.min = 0, .max = 500, .unit = "mm", .help = "From a camera's centre to the glass."});
+  v.field("tilt_deg", c.tilt_deg,
+          {.min = -20, .max = 20, .size = 2, .unit = "deg", .help = "About the axes x and y."});
+}
+
 void describe(Visitor& v, CameraConfig& c) {
   v.field("width", c.width, {.min = 16, .max = 4096, .unit = "px", .help = "Of each image."});
   v.field("height", c.height, {.min = 16, .max = 4096, .unit = "px", .help = "Of each image."});
@@ -136,6 +151,7 @@ void describe(Visitor& v, CameraConfig& c) {
   v.field("looks", c.looks, {.choices = {"forward", "down"}, .help = "Where the cameras look."});
   v.field("position_mm", c.position_mm,
           {.size = 3, .unit = "mm", .help = "Of the hand frame, in the body's axes."});
+  v.group("port", c.port, "The flat port of the housing before each camera.");
 }
 
 void describe(Visitor& v, VehicleScenario& c) {

@@ -19,6 +19,12 @@
 
 namespace gannet::world {
 
+struct PortConfig {
+  double thickness_mm = 0;  // 0: no port
+  double distance_mm = 30;
+  std::vector<double> tilt_deg = {0, 0};  // of its normal, about x and y
+};
+
 struct CameraConfig {
   int width = 640;
   int height = 480;
@@ -28,6 +34,7 @@ struct CameraConfig {
   double latency_ms = 40;
   std::string looks = "forward";                  // forward | down
   std::vector<double> position_mm = {200, 0, 0};  // of Σ_H in the body's frame
+  PortConfig port;                                // before each of them
 };
 
 struct VehicleScenario {
@@ -94,6 +101,7 @@ struct Scenario {
   Transform<World, Body> start_pose() const;
 };
 
+void describe(Visitor& v, PortConfig& c);
 void describe(Visitor& v, CameraConfig& c);
 void describe(Visitor& v, VehicleScenario& c);
 void describe(Visitor& v, TargetScenario& c);

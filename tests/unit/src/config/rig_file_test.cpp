@@ -129,9 +129,81 @@ TEST(RigFile, both_cameras_have_one_size) {
             "rig.toml:12: right.height: 400 px must be the left camera's, 480 px");
 }
 
-TEST(RigFile, a_port_with_content_is_refused_for_now) {
-  EXPECT_EQ(error_of(kGood + "[port]\nthickness_m = 0.01\n").substr(0, 30),
-            "rig.toml:20: port: refraction ");
+const std::string kPort =
+    "[left.port]\nnormal = [0.0131, -0.00446, 0.9999]\n"
+    "distance_m = 0.0253\nthickness_m = 0.008\n";  // lines 20 to 23
+
+TEST(RigFile, ports_are_read_each_for_its_camera) {
+  const auto sut = parse_rig(
+      kGood + kPort + "water_index = 1.34\nair_index = 1.0003\nglass_index = 1.47\n", "rig.toml");
+  ASSERT_TRUE(sut) << sut.error().text;
+  ASSERT_TRUE(sut->left.port);
+  EXPECT_FALSE(sut->right.port);
+  const FlatPort& port = *sut->left.port;
+  EXPECT_NEAR(port.normal.norm(), 1, 1e-15);
+  EXPECT_LT((port.normal - Eigen::Vector3d(0.0131, -0.00446, 0.9999)).norm(), 1e-4);
+  EXPECT_EQ(port.distance_m, 0.0253);
+  EXPECT_EQ(port.thickness_m, 0.008);
+  EXPECT_EQ(port.air_index, 1.0003);
+  EXPECT_EQ(port.glass_index, 1.47);
+  EXPECT_EQ(port.water_index, 1.34);
+  const auto plain = parse_rig(kGood + kPort, "rig.toml");
+  ASSERT_TRUE(plain);
+  EXPECT_EQ(plain->left.port->air_index, 1);
+  EXPECT_EQ(plain->left.port->glass_index, 1.49);
+  EXPECT_EQ(plain->left.port->water_index, 1.333);
+}
+
+TEST(RigFile, faults_of_a_port_are_told_with_their_lines) {
+  EXPECT_EQ(error_of(kGood + "[port]\nthickness_m = 0.01\n"),
+            "rig.toml:20: port: each camera has its own: write [left.port] and [right.port]");
+  EXPECT_EQ(error_of(kGood + replaced(kPort, "distance_m = 0.0253\n", "")),
+            "rig.toml:20: left.port.distance_m: is missing");
+  EXPECT_EQ(error_of(kGood + replaced(kPort, "0.9999", "0.5")).substr(0, 57),
+            "rig.toml:21: left.port.normal: is not a unit vector: its ");
+  EXPECT_EQ(error_of(kGood + replaced(kPort, "0.9999", "-0.9999")),
+            "rig.toml:21: left.port.normal: is more than 60 degrees off the camera's axis");
+  EXPECT_EQ(error_of(kGood + replaced(kPort, "0.0253", "25.3")),
+            "rig.toml:22: left.port.distance_m: 25.3 m is outside [0, 1]");
+  EXPECT_EQ(error_of(kGood + kPort + "water_index = 0.9\n"),
+            "rig.toml:24: left.port.water_index: 0.9 is outside [1, 2.5]");
+}
+
+TEST(RigFile, what_is_written_reads_back_as_it_was) {
+  auto rig = parse_rig(kGood, "rig.toml").value();
+  rig.left.distortion = Distortion::kBrown;
+  rig.left.coefficients = {-0.28, 0.09, 0.001, -0.0007, 0.01};
+  rig.left.time_offset = from_seconds(-0.004);
+  rig.left.port =
+      FlatPort{Eigen::Vector3d(0.02, -0.03, 1).normalized(), 0.031, 0.012, 1.0, 1.47, 1.34};
+  rig.right.distortion = Distortion::kFisheye;
+  rig.right.coefficients = {0.01, -0.02, 0.003, 0.0001, 0};
+  rig.right_from_left.rotation = Eigen::AngleAxisd(0.02, Eigen::Vector3d(1, 2, -1).normalized());
+  rig.body_from_hand = {Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {0.2, 0, 0.9}};
+  const auto read = parse_rig(rig_text(rig), "rig.toml");
+  ASSERT_TRUE(read) << read.error().text;
+  EXPECT_EQ(read->left.coefficients, rig.left.coefficients);
+  EXPECT_EQ(read->left.time_offset, rig.left.time_offset);
+  EXPECT_EQ(read->right.coefficients, rig.right.coefficients);
+  EXPECT_EQ(read->left.fx, rig.left.fx);
+  ASSERT_TRUE(read->left.port);
+  EXPECT_LT((read->left.port->normal - rig.left.port->normal).norm(), 1e-15);
+  EXPECT_EQ(read->left.port->distance_m, 0.031);
+  EXPECT_EQ(read->left.port->thickness_m, 0.012);
+  EXPECT_EQ(read->left.port->glass_index, 1.47);
+  EXPECT_EQ(read->left.port->water_index, 1.34);
+  EXPECT_FALSE(read->right.port);
+  EXPECT_LT(read->right_from_left.rotation.angularDistance(rig.right_from_left.rotation), 1e-7);
+  EXPECT_LT((read->hand_from_left.translation - rig.hand_from_left.translation).norm(), 1e-12);
+  ASSERT_TRUE(read->body_from_hand);
+  EXPECT_LT(read->body_from_hand->rotation.angularDistance(rig.body_from_hand->rotation), 1e-7);
+}
+
+TEST(RigFile, the_example_with_ports_loads) {
+  const auto rig = load_rig("docs/examples/port-rig.toml");
+  ASSERT_TRUE(rig) << rig.error().text;
+  EXPECT_TRUE(rig->left.port && rig->right.port);
+  EXPECT_TRUE(rig->body_from_hand);
 }
 
 TEST(RigFile, a_missing_file_is_told) {

@@ -154,6 +154,18 @@ TEST(Renderer, PutsItThereThroughAFisheyeToo) {
   expect_exact_places(rig, 128);
 }
 
+TEST(Renderer, PutsItThereThroughAFlatPortToo) {
+  StereoRig rig = small_rig();
+  rig.left.port = FlatPort{.normal = {0, 0, 1}, .distance_m = 0.03, .thickness_m = 0.01};
+  rig.right.port = FlatPort{.normal = Eigen::Vector3d(0.05, -0.08, 1).normalized(),
+                            .distance_m = 0.09,
+                            .thickness_m = 0.02};
+  expect_exact_places(rig, 128);
+  rig.right.distortion = Distortion::kBrown;
+  rig.right.coefficients = {-0.2, 0.05, 0.001, -0.0015, 0};
+  expect_exact_places(rig, 128);
+}
+
 // Moves of a tenth of a pixel have to move the picture by a tenth of a pixel, each of them.
 TEST(Renderer, FollowsMovesBelowAPixelWithoutSteps) {
   const StereoRig rig = small_rig();

@@ -4,8 +4,6 @@
 
 #include <filesystem>
 
-#include "src/config/rig_file.hpp"
-
 namespace gannet::world {
 namespace {
 
@@ -26,24 +24,6 @@ TEST(RunFiles, a_named_folder_stays) {
   EXPECT_TRUE(std::filesystem::is_directory(folder));
   std::filesystem::remove_all(folder);
   EXPECT_FALSE(RunFiles::create("/proc/no/such/place"));
-}
-
-TEST(RunFiles, the_rig_reads_back_as_it_was) {
-  StereoRig rig = Scenario{}.rig();
-  rig.left.distortion = Distortion::kBrown;
-  rig.left.coefficients = {-0.28, 0.09, 0.001, -0.0007, 0.01};
-  rig.right.distortion = Distortion::kFisheye;
-  rig.right.coefficients = {0.01, -0.02, 0.003, 0.0001, 0};
-  rig.right_from_left.rotation = quaternion_from_rpy(0.01, -0.02, 0.005);
-  const auto read = config::parse_rig(rig_text(rig), "rig.toml");
-  ASSERT_TRUE(read) << read.error().text;
-  EXPECT_EQ(read->left.coefficients, rig.left.coefficients);
-  EXPECT_EQ(read->right.coefficients, rig.right.coefficients);
-  EXPECT_EQ(read->left.fx, rig.left.fx);
-  EXPECT_LT(read->right_from_left.rotation.angularDistance(rig.right_from_left.rotation), 1e-7);
-  EXPECT_LT((read->hand_from_left.translation - rig.hand_from_left.translation).norm(), 1e-12);
-  ASSERT_TRUE(read->body_from_hand);
-  EXPECT_LT(read->body_from_hand->rotation.angularDistance(rig.body_from_hand->rotation), 1e-7);
 }
 
 // What --set would take, the daemon finds beside its config.
