@@ -22,6 +22,8 @@ constexpr double kSpacingPx = 1.8;  // of a coarse level's points, in that level
 constexpr double kLeastMerge = 1.6;
 constexpr double kRectanglePoints = 1500;
 constexpr int kPlaceCandidates = 24;  // of place(), about the hint
+constexpr int kTilts = 5;             // of try_tilts(), about each axis
+constexpr int kTiltAnswers = 2;       // of them finished
 
 double radians(double degrees) { return degrees * 3.14159265358979323846 / 180; }
 
@@ -283,10 +285,13 @@ Recognition Recogniser::recognise(const vision::PreparedFrame& frame,
   std::fill(rivals_.begin(), rivals_.end(), Rival{-1, {}, {}});
   double spent = 0;
   // The answer is scored four times more: found, refined, on the coarsest level, eye by eye.
-  // A small search has nothing left for looking at the other tilts.
-  constexpr double kMirrorShare = 0.1;
-  const bool with_mirrored = can_follow() && mirror_cost() <= kMirrorShare * wanted;
-  const double for_search = std::max(wanted - 4 - (with_mirrored ? mirror_cost() : 0), 1.0);
+  // A small search has nothing left for looking at all other tilts, or at any.
+  constexpr double kTiltsShare = 0.2;
+  double for_tilts = can_follow() ? tilts_cost(kTilts * kTilts, kTiltAnswers) : wanted;
+  const bool all_tilts = for_tilts <= kTiltsShare * wanted;
+  if (!all_tilts && can_follow()) for_tilts = tilts_cost(3, 1);
+  const bool with_tilts = for_tilts <= kTiltsShare * wanted;
+  const double for_search = std::max(wanted - 4 - (with_tilts ? for_tilts : 0), 1.0);
   while (spent < for_search) {
     if (budget.stop != nullptr && budget.stop(budget.context)) break;
     const int level = std::min(optimiser_->level(), levels - 1);
@@ -305,7 +310,7 @@ Recognition Recogniser::recognise(const vision::PreparedFrame& frame,
   float score = 0;
   fitness_->score(target_, frame, 0, {&answer, 1}, {&score, 1}, scratch_[0]);
   Recognition out = finish(frame, answer, score, spent + 1);
-  if (with_mirrored) try_mirrored(frame, out, parallel);
+  if (with_tilts) try_tilts(frame, all_tilts, out);
   return out;
 }
 
@@ -449,28 +454,54 @@ int Recogniser::mirror(const Transform<LeftCamera, Target>& pose,
   return static_cast<int>(count);
 }
 
-// Evaluations that try_mirrored() may spend.
-double Recogniser::mirror_cost() const {
-  const double coarsest = target_.cost(fitness_->levels(target_) - 1);
-  return 3 * ((kPlaceCandidates + 2) * target_.cost(coarse_level()) + coarsest + 3);
+// Evaluations that try_tilts() spends: what its refinements take of time, and its answers' scores.
+double Recogniser::tilts_cost(int tilts, int answers) const {
+  constexpr double kRefinement = 10, kAnswer = 40;  // measured
+  return tilts * (kRefinement + target_.cost(coarse_level())) + answers * kAnswer;
 }
 
-// From nothing a search may end on the wrong answer that resembles the right one most.
-void Recogniser::try_mirrored(const vision::PreparedFrame& frame, Recognition& best,
-                              Parallel& parallel) {
-  std::array<vision::Hypothesis, 3> mirrored;
-  const int count = mirror(best.left_from_target, mirrored);
-  double spent = best.evaluations;
-  for (const vision::Hypothesis& other :
-       std::span(mirrored).first(static_cast<std::size_t>(count))) {
-    std::array<float, 8> genes = {};
-    space_.encode(place(frame, other.pose(), parallel), genes);  // which keeps it inside
-    const vision::Hypothesis placed = space_.decode({genes.data(), 6});
-    const float score = score_one(frame, 0, placed);
-    spent += (kPlaceCandidates + 2) * target_.cost(coarse_level()) + 1;
-    if (static_cast<double>(score) <= best.fitness) continue;
-    best = finish(frame, placed, score, spent);
-    spent = best.evaluations;
+// A search that has found the place may have ended on a wrong tilt of it: the true one's basin is
+// narrow, and the pose tilted the other way resembles it. Others are looked at from there, each
+// refined on coarse pixels; the best ones are finished.
+void Recogniser::try_tilts(const vision::PreparedFrame& frame, bool all, Recognition& best) {
+  constexpr std::size_t kTiltX = 3, kTiltY = 4;
+  std::array<vision::Hypothesis, kTilts * kTilts> tilted;
+  std::size_t count = 0;
+  std::array<float, 8> genes = {};
+  space_.encode(best.left_from_target, genes);
+  if (all) {
+    for (std::size_t i = 0; i < tilted.size(); ++i) {
+      genes[kTiltX] = (static_cast<float>(i % kTilts) + 0.5f) / kTilts;
+      genes[kTiltY] = (static_cast<float>(i / kTilts) + 0.5f) / kTilts;
+      tilted[count++] = space_.decode({genes.data(), 6});
+    }
+  } else {
+    std::array<vision::Hypothesis, 3> mirrored;
+    count = static_cast<std::size_t>(mirror(best.left_from_target, mirrored));
+    std::copy_n(mirrored.begin(), count, tilted.begin());
+  }
+  const int answers = std::min(all ? kTiltAnswers : 1, static_cast<int>(count));
+  const double spent = best.evaluations + tilts_cost(static_cast<int>(count), answers);
+  vision::RefineOptions options;
+  options.level = coarse_level();
+  options.iterations = 3;
+  const vision::PointSet& points = target_.level[static_cast<std::size_t>(options.level)];
+  std::array<float, kTilts* kTilts> scores = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const vision::Refinement refined =
+        vision::refine_pose(optics_, points, frame, tilted[i].pose(), options);
+    if (refined.ok) {
+      space_.encode(refined.left_from_target, genes);  // which keeps it inside
+      tilted[i] = space_.decode({genes.data(), 6});
+    }
+    scores[i] = score_one(frame, options.level, tilted[i]);
+  }
+  for (int k = 0; k < answers; ++k) {
+    const auto at = std::max_element(scores.begin(), scores.begin() + static_cast<int>(count));
+    const vision::Hypothesis& start = tilted[static_cast<std::size_t>(at - scores.begin())];
+    *at = -std::numeric_limits<float>::infinity();
+    const Recognition answer = finish(frame, start, score_one(frame, 0, start), spent);
+    if (answer.fitness > best.fitness) best = answer;
   }
   best.evaluations = spent;
 }

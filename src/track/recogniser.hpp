@@ -89,8 +89,8 @@ class Recogniser {
   void challenge(const vision::PreparedFrame& frame, Recognition& own);
   int mirror(const Transform<LeftCamera, Target>& pose,
              std::array<vision::Hypothesis, 3>& out) const;
-  double mirror_cost() const;
-  void try_mirrored(const vision::PreparedFrame& frame, Recognition& best, Parallel& parallel);
+  double tilts_cost(int tilts, int answers) const;
+  void try_tilts(const vision::PreparedFrame& frame, bool all, Recognition& best);
   void watch(const vision::PreparedFrame& frame, const vision::Hypothesis& own, Parallel& parallel);
   float score_one(const vision::PreparedFrame& frame, int level, const vision::Hypothesis& q);
   Recognition finish(const vision::PreparedFrame& frame, const vision::Hypothesis& best,
