@@ -1,0 +1,46 @@
+// Mission: visits in turn, each a target at a goal until it has been held there for a while (P000
+// §3.2). A pure function of its memory, this cycle's facts and the time. It only says which visit
+// is due: it holds no request and so can neither arm nor move anything. Any time the supervisor is
+// not armed, a mission that runs ends, and only a person starts it anew; while the target is not
+// surely in view it waits, and the dwell begins again. One thread at a time; RT safe.
+#pragma once
+
+#include <cstdint>
+
+#include "platform/base/time.hpp"
+
+namespace gannet::servo {
+
+enum class MissionState : std::uint8_t { kIdle, kRunning, kPaused, kDone, kStopped };
+const char* to_string(MissionState state);  // "idle" …
+
+// Of one visit; the defaults never let it end.
+struct VisitLimits {
+  double tolerance_m = 0;  // largest distance from the goal that counts as there
+  Duration dwell = Duration::max();
+};
+
+// The defaults are the bad ones.
+struct MissionFacts {
+  bool armed = false;        // Armed, Servoing or Holding: neither disarmed, stopped nor faulted
+  bool following = false;    // full permit for the law, not for a hand
+  bool target_sure = false;  // this visit's own target, locked, its estimate fresh
+  double error_m = 0;        // distance from this visit's goal
+};
+
+struct MissionMemory {
+  MissionState state = MissionState::kIdle;
+  int visit = 0;  // that is due, from 0
+  bool there = false;
+  TimePoint there_since = {};
+};
+
+// visits: ≥ 1. A mission is started only while armed; otherwise the memory comes back as it was.
+MissionMemory start_mission(const MissionMemory& memory, int visits, bool armed);
+MissionMemory stop_mission(const MissionMemory& memory);
+
+// Once a cycle. limits: of memory.visit.
+MissionMemory step(const MissionMemory& memory, int visits, const VisitLimits& limits,
+                   const MissionFacts& facts, TimePoint now);
+
+}  // namespace gannet::servo
