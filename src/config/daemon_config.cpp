@@ -86,6 +86,7 @@ void describe(Visitor& v, DaemonConfig& c) {
   v.group("track", c.track, "Recognition and the state of a track.");
   v.group("filter", c.filter, "The filter that predicts the pose to now.");
   v.group("servo", c.servo, "From pose to motion.");
+  v.group("mission", c.mission, "Targets that are visited in turn.");
   v.group("vehicle", c.vehicle, "The vehicle that is steered; none: poses only.");
   v.group("safety", c.safety, "Limits of the supervisor.");
   v.group("frames", c.frames, "What becomes of frames after recognition.");

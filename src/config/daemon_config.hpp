@@ -15,6 +15,7 @@
 #include "src/config/loader.hpp"
 #include "src/core/stereo_rig.hpp"
 #include "src/safety/safety_config.hpp"
+#include "src/servo/mission_config.hpp"
 #include "src/servo/servo_config.hpp"
 #include "src/track/filter_config.hpp"
 #include "src/track/track_config.hpp"
@@ -86,6 +87,7 @@ struct DaemonConfig {
   track::TrackConfig track;
   track::FilterConfig filter;
   servo::ServoConfig servo;
+  servo::MissionConfig mission;
   vehicle::VehicleConfig vehicle;
   safety::SafetyConfig safety;
   FramesConfig frames;

@@ -124,6 +124,7 @@ const std::vector<ControlCommands::Entry>& ControlCommands::table() {
       {"stop", &ControlCommands::stop, {}},
       {"target", &ControlCommands::target, {"model", "roi", "none"}},
       {"goal", &ControlCommands::goal, {"mm"}},
+      {"mission", &ControlCommands::mission, {"do"}},
       {"manual", &ControlCommands::manual, {"linear_m_s", "angular_rad_s"}},
   };
   return kTable;
@@ -139,7 +140,8 @@ ControlCommands::ControlCommands(Setting setting, Reports* reports, CommandLines
     : setting_(std::move(setting)),
       reports_(reports),
       lines_(lines),
-      params_(setting_.loaded->config.servo.params) {}
+      params_(setting_.loaded->config.servo.params),
+      mission_(setting_.loaded->config.mission, setting_.models) {}
 
 Answer ControlCommands::handle(const control::Request& request) {
   reports_->refresh();
@@ -207,6 +209,7 @@ Answer ControlCommands::status(const Json&) {
   json["chosen"] = target_choice_json(target_, setting_.models);
   if (target_.kind == TargetChoice::Kind::kModel)
     json["chosen"]["alike_deg"] = alike_json(setting_.symmetries, target_.model);
+  json["mission"] = mission_.status_json();
   json["goal_mm"] = {params_.goal_x_m * 1e3, params_.goal_y_m * 1e3, params_.goal_z_m * 1e3};
   json["estimate"] = reports_->estimate_json(setting_.models, now);
   json["target"] = reports_->target_json(setting_.loaded->rig);
@@ -338,17 +341,19 @@ Answer ControlCommands::target(const Json& params) {
   } else if (params["none"] != true) {
     return bad_params("\"none\" must be true");
   }
-  return choose(choice);
+  if (!choose(choice))
+    return Failure{ErrorCode::kBusy, "too many choices wait for the vision loop"};
+  obey(mission_.stop(true));
+  return target_choice_json(target_, setting_.models);
 }
 
-Answer ControlCommands::choose(TargetChoice choice) {
+bool ControlCommands::choose(TargetChoice choice) {
   if (choice.kind != TargetChoice::Kind::kNone) choice.id = target_count_ + 1;
-  if (!lines_->to_vision.push(choice)) {
-    return Failure{ErrorCode::kBusy, "too many choices wait for the vision loop"};
-  }
+  if (!lines_->to_vision.push(choice)) return false;
   if (choice.kind != TargetChoice::Kind::kNone) ++target_count_;
   target_ = choice;
-  return target_choice_json(target_, setting_.models);
+  owes_none_ = false;
+  return true;
 }
 
 Answer ControlCommands::goal(const Json& params) {
@@ -356,13 +361,18 @@ Answer ControlCommands::goal(const Json& params) {
   const auto mm = numbers(params, "mm", 3, kFarthestMm);
   if (!mm) return bad_params("\"mm\" must be three numbers [x, y, z] within ±100000");
   if ((*mm)[2] <= 0) return bad_params("z must be positive: the target is before the cameras");
-  params_.goal_x_m = (*mm)[0] * 1e-3;
-  params_.goal_y_m = (*mm)[1] * 1e-3;
-  params_.goal_z_m = (*mm)[2] * 1e-3;
-  lines_->params.write(params_);
-  reports_->add_event(
-      telemetry::make_event(telemetry::kGoalSet, setting_.now(), (*mm)[0], (*mm)[1], (*mm)[2]));
+  obey(mission_.stop(true));
+  set_goal(Eigen::Vector3d(mm->data()) * 1e-3);
   return Json{{"goal_mm", *mm}};
+}
+
+void ControlCommands::set_goal(const Eigen::Vector3d& goal_m) {
+  params_.goal_x_m = goal_m.x();
+  params_.goal_y_m = goal_m.y();
+  params_.goal_z_m = goal_m.z();
+  lines_->params.write(params_);
+  reports_->add_event(telemetry::make_event(telemetry::kGoalSet, setting_.now(), goal_m.x() * 1e3,
+                                            goal_m.y() * 1e3, goal_m.z() * 1e3));
 }
 
 Answer ControlCommands::manual(const Json& params) {

@@ -12,6 +12,7 @@
 #include "src/config/daemon_config.hpp"
 #include "src/control/protocol.hpp"
 #include "src/control/server.hpp"
+#include "src/daemon/mission_pilot.hpp"
 #include "src/daemon/reports.hpp"
 #include "src/servo/servo_config.hpp"
 #include "src/vision/patch_model.hpp"
@@ -44,6 +45,9 @@ class ControlCommands {
 
   control::Answer handle(const control::Request& request);
 
+  // Steps the mission; as often as the control thread turns.
+  void advance();
+
   // The methods' names, for help and tests.
   static std::vector<std::string> methods();
 
@@ -66,10 +70,16 @@ class ControlCommands {
   control::Answer stop(const control::Json&);
   control::Answer target(const control::Json& params);
   control::Answer goal(const control::Json& params);
+  control::Answer mission(const control::Json& params);
   control::Answer manual(const control::Json& params);
 
   control::Answer request(safety::Request request, const char* name);
-  control::Answer choose(TargetChoice choice);
+  // False: too many choices wait.
+  bool choose(TargetChoice choice);
+  void set_goal(const Eigen::Vector3d& goal_m);
+  control::Answer start_mission();
+  control::Answer stop_mission();
+  void obey(const MissionPilot::Turn& turn);
   bool push(ServoCommand command);
   bool wait_until_served();
   control::Json state_json() const;
@@ -80,6 +90,8 @@ class ControlCommands {
   CommandLines* lines_;
   servo::ServoParams params_;
   TargetChoice target_;
+  MissionPilot mission_;
+  bool owes_none_ = false;  // the mission wants no target, but the vision loop had no room
   std::uint32_t target_count_ = 0;
   std::uint64_t command_count_ = 0;
 };

@@ -7,6 +7,7 @@
 #include "hal/can/can_kinds.hpp"
 #include "hal/drive/drive_kinds.hpp"
 #include "hal/gpio/line_kinds.hpp"
+#include "platform/base/nearest_word.hpp"
 #include "src/image_file/image_file.hpp"
 #include "src/modeldb/model_file.hpp"
 #include "src/track/track_config.hpp"
@@ -76,6 +77,20 @@ Result<void> open_lines(const config::GpioConfig& config, Devices& devices, Time
   return opened;
 }
 
+Result<void> check_visits(const config::LoadedConfig& loaded,
+                          const std::vector<std::string>& models) {
+  const std::vector<servo::VisitConfig>& visits = loaded.config.mission.visits;
+  for (std::size_t i = 0; i < visits.size(); ++i) {
+    const std::string& model = visits[i].model;
+    if (std::find(models.begin(), models.end(), model) != models.end()) continue;
+    const std::string_view near = nearest_word(model, models);
+    return at_origin(loaded, "mission.visit[" + std::to_string(i) + "].model",
+                     "there is no model \"" + model + "\" in the config's models" +
+                         (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?"));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<Parts> make_parts(const config::LoadedConfig& loaded) {
@@ -83,6 +98,7 @@ Result<Parts> make_parts(const config::LoadedConfig& loaded) {
   Parts parts;
   auto models = load_models(loaded, parts.model_names);
   if (!models) return models.error();
+  if (auto checked = check_visits(loaded, parts.model_names); !checked) return checked.error();
   for (const vision::PatchModel& model : *models) parts.model_symmetries.push_back(model.symmetry);
   auto tracker = track::TargetTracker::create(config.track, loaded.rig, std::move(*models));
   if (!tracker) return at_key("track", tracker.error());

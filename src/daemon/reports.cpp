@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "platform/base/log.hpp"
+#include "src/servo/mission.hpp"
 #include "src/telemetry/event_codes.hpp"
 
 namespace gannet::daemon {
@@ -78,6 +79,9 @@ std::string word_of(std::string_view kind, int value) {
   }
   if (kind == "cause" && value < safety::kCauses) {
     return safety::to_string(static_cast<safety::Cause>(value));
+  }
+  if (kind == "mission" && value < servo::kMissionStates) {
+    return servo::to_string(static_cast<servo::MissionState>(value));
   }
   if (kind == "track") return gannet::to_string(static_cast<TrackState>(value));
   if (kind == "reason") return gannet::to_string(static_cast<TrackReason>(value));

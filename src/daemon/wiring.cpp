@@ -234,6 +234,8 @@ bool Daemon::wait_and_serve(int signal_fd) {
     server_->serve([this](const control::Request& r) { return commands_->handle(r); });
   }
   reports_.refresh();
+  // Before the step: what a mission asks for now holds in it.
+  commands_->advance();
   return !steps_ || take_step();
 }
 

@@ -33,6 +33,10 @@ constexpr EventWords kTable[] = {
     {kArchiveFailed, Severity::kError, "archive_failed", "frame {0} could not be recorded"},
     {kTargetChosen, Severity::kInfo, "target_chosen", "target {0} chosen"},
     {kGoalSet, Severity::kInfo, "goal_set", "goal [{0}, {1}, {2}] mm"},
+    {kMissionChanged, Severity::kNotice, "mission_changed",
+     "mission {0:mission}, visit {1} of {2}"},
+    {kMissionTimedOut, Severity::kWarning, "mission_timed_out",
+     "visit {0} of {1} took too long: nothing is followed until a person starts the mission again"},
 };
 
 std::string number_text(double value) {

@@ -35,6 +35,8 @@ inline constexpr EventCode kInternalFault{51};
 inline constexpr EventCode kArchiveFailed{60};
 inline constexpr EventCode kTargetChosen{70};
 inline constexpr EventCode kGoalSet{71};
+inline constexpr EventCode kMissionChanged{72};
+inline constexpr EventCode kMissionTimedOut{73};
 
 // A code with its words. {0}, {1}, {2} stand for the args; {0:state} for the word that a number of
 // that kind means.

@@ -251,6 +251,30 @@ int run_top(const Arguments& arguments) {
   return 0;
 }
 
+Command describe_mission() {
+  Command command = describe("mission", "visits the config's targets in turn",
+                             "gannet mission list\ngannet mission start");
+  command.description =
+      "Visits are [[mission.visit]] in gannet.toml(5). A mission starts only in an armed vehicle, "
+      "and never arms one. It pauses while its target is lost. A visit that takes too long is "
+      "given "
+      "up: nothing is followed until start, which then goes on with that visit. stop, disarm, a "
+      "fault, and a target or goal of somebody else end it.";
+  command.positionals = {{.name = "do",
+                          .choices = {"list", "start", "stop", "status"},
+                          .required = true,
+                          .help = "Show the visits, start or end them, or say how far it is."}};
+  return command;
+}
+
+int run_mission(const Arguments& arguments) {
+  const std::string word = arguments.text("do");
+  return Talk("gannet mission", arguments)
+      .ask_and_print("mission", Json{{"do", word}}, [&word](const Json& j) {
+        return word == "list" ? without_last_newline(visits_text(j)) : mission_text(j);
+      });
+}
+
 Command describe_manual() {
   Command command = describe("manual", "moves the vehicle by hand for a while",
                              "gannet manual 0.1,0,0 --seconds 2\ngannet manual 0,0,0 0,0,0.3");
@@ -313,6 +337,7 @@ std::vector<Subcommand> online_subcommands() {
        &run_stop},
       {describe_target(), &run_target},
       {describe_goal(), &run_goal},
+      {describe_mission(), &run_mission},
       {describe_manual(), &run_manual},
       {describe("config show", "prints each value of the configuration and where it comes from",
                 "gannet config show"),

@@ -150,6 +150,9 @@ std::string status_text(const Json& status) {
   text += row("e-stop", word(member(status, "estop")));
   text += row("target", chosen_text(member(status, "chosen")));
   text += row("goal", numbers(member(status, "goal_mm"), 0) + " mm in the hand frame");
+  const Json& mission = member(status, "mission");
+  if (mission.is_object() && member(mission, "visits") != 0)
+    text += row("mission", mission_text(mission));
   text += estimate_rows(status);
   const Json& drives = member(status, "drives");
   if (drives.is_object()) text += row("drives", drives_text(drives));
@@ -157,6 +160,27 @@ std::string status_text(const Json& status) {
                                   word(member(status, "vehicle")) + ", camera " +
                                   word(member(status, "camera")) + ", clock " +
                                   word(member(status, "clock")));
+}
+
+std::string visits_text(const Json& list) {
+  report::Table table({"visit", "model", "goal mm", "tolerance mm", "hold s", "time-out s"});
+  const Json& visits = member(list, "visits");
+  for (std::size_t i = 0; visits.is_array() && i < visits.size(); ++i) {
+    const Json& v = visits[i];
+    table.add({std::to_string(i + 1), word(member(v, "model")), numbers(member(v, "goal_mm"), 0),
+               number(number_of(member(v, "tolerance_mm")), 1),
+               number(number_of(member(v, "hold_s")), 1),
+               number(number_of(member(v, "time_out_s")), 1)});
+  }
+  return table.text() + "rounds    " + word(member(list, "rounds")) + "\n";
+}
+
+std::string mission_text(const Json& mission) {
+  const std::string state = word(member(mission, "state"));
+  if (state == "idle") return "idle, " + word(member(mission, "visits")) + " visits";
+  const std::string where = member(mission, "there") == true ? ", there" : "";
+  return state + ", visit " + word(member(mission, "visit")) + " of " +
+         word(member(mission, "visits")) + ": " + word(member(mission, "model")) + where;
 }
 
 std::string top_text(const Json& top) {

@@ -9,7 +9,9 @@
 namespace gannet::tool {
 
 std::string status_text(const control::Json& status);
-std::string state_text(const control::Json& answer);  // of arm, disarm, reset, stop, manual
+std::string state_text(const control::Json& answer);     // of arm, disarm, reset, stop, manual
+std::string visits_text(const control::Json& list);      // of mission list
+std::string mission_text(const control::Json& mission);  // one line
 std::string top_text(const control::Json& top);
 std::string event_text(const control::Json& event);  // one line
 

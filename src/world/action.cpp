@@ -12,7 +12,7 @@ constexpr ActionForm kForms[] = {
     {"press estop", "", "press the e-stop", Verb::kPressEstop},
     {"release estop", "", "release it", Verb::kReleaseEstop},
     {"cut estop", "", "break a wire of its first contact", Verb::kCutEstop},
-    {"arm", "", "as the operator, like the six below", Verb::kArm},
+    {"arm", "", "as the operator, like the seven below", Verb::kArm},
     {"disarm", "", "", Verb::kDisarm},
     {"reset", "", "", Verb::kReset},
     {"stop", "", "", Verb::kStop},
@@ -20,6 +20,7 @@ constexpr ActionForm kForms[] = {
     {"manual", "X Y Z", "steer by hand for safety.manual_age_s: forward, left, up, mm/s",
      Verb::kManual},
     {"goal", "X Y Z", "where the target shall be, mm", Verb::kGoal},
+    {"mission", "NAME", "start or stop", Verb::kMission},
     {"blind", "", "the cameras give nothing", Verb::kBlind},
     {"see", "", "ends blind and drop", Verb::kSee},
     {"drop", "SHARE", "this share of the pairs, at random", Verb::kDrop},
@@ -105,7 +106,7 @@ std::vector<std::string> words_of(std::string_view text) {
 
 std::span<const ActionForm> action_forms() { return kForms; }
 
-bool Action::is_operator_command() const { return verb >= Verb::kArm && verb <= Verb::kGoal; }
+bool Action::is_operator_command() const { return verb >= Verb::kArm && verb <= Verb::kMission; }
 
 Result<Action> parse_action(std::string_view text) {
   const std::vector<std::string> words = words_of(text);

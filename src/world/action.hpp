@@ -23,6 +23,7 @@ enum class Verb {
   kTarget,
   kManual,
   kGoal,
+  kMission,
   kBlind,
   kSee,
   kDrop,

@@ -212,6 +212,11 @@ double abs_axis_mm(const Trace& trace, const Window& window) {
   return mean_absolute_error_mm(trace, window, kAxis);
 }
 
+template <int kAxis>
+double visit_axis_mm(const Trace& trace, const Window& window) {
+  return visit_absolute_error_mm(trace, window, kAxis);
+}
+
 double least_z_mm(const Trace& trace, const Window& window) {
   return distance_reach_mm(trace, window).least_mm;
 }
@@ -385,6 +390,13 @@ const std::vector<Measure>& measures() {
       {"abs_x_mm", "the truth's mean absolute distance from the goal along x", abs_axis_mm<0>},
       {"abs_y_mm", "the same along y", abs_axis_mm<1>},
       {"abs_z_mm", "the same along z", abs_axis_mm<2>},
+      {"visit_x_mm", "abs_x_mm from a mission's arrival at a visit to its end", visit_axis_mm<0>},
+      {"visit_y_mm", "the same along y", visit_axis_mm<1>},
+      {"visit_z_mm", "the same along z", visit_axis_mm<2>},
+      {"visits", "how many of a mission's visits were done",
+       [](const Trace& trace, const Window& window) {
+         return static_cast<double>(visits_done(trace, window));
+       }},
       {"fitness_kept", "least fitness of the found by the median of the first 30", fitness_kept},
       {"lag_x_deg", "how far it lags behind the target at 0.05 Hz along x", lag_axis_deg<0>},
       {"lag_y_deg", "the same along y", lag_axis_deg<1>},

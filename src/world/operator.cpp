@@ -1,5 +1,6 @@
 #include "src/world/operator.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <thread>
@@ -31,6 +32,8 @@ Method method_of(const Action& action) {
     }
     case Verb::kGoal:
       return {"goal", {{"mm", action.numbers}}};
+    case Verb::kMission:
+      return {"mission", {{"do", action.name}}};
     case Verb::kTarget:
       if (action.name == "none") return {"target", {{"none", true}}};
       return {"target", {{"model", action.name}}};
@@ -63,12 +66,30 @@ bool read_pose(const Json& estimate, Transform<LeftCamera, Target>& pose) {
   return true;
 }
 
+void read_mission(const Json& status, HeardEstimate& heard) {
+  const auto mission = status.find("mission");
+  if (mission == status.end() || !mission->is_object()) return;
+  const std::string state = text_at(*mission, "state");
+  const bool is_done = state == "done";
+  const double visits = number_at(*mission, is_done ? "visits" : "visit");
+  heard.visits_done = std::max(0, static_cast<int>(visits) - (is_done ? 0 : 1));
+  const auto goal = status.find("goal_mm");
+  if ((state != "running" && state != "paused") || goal == status.end() || goal->size() != 3)
+    return;
+  heard.visit_model = text_at(*mission, "model");
+  for (int i = 0; i < 3; ++i)
+    heard.visit_goal_m[i] = (*goal)[static_cast<std::size_t>(i)].get<double>() / 1000;
+  const auto arrived = mission->find("arrived");
+  heard.arrived = arrived != mission->end() && *arrived == true;
+}
+
 }  // namespace
 
 HeardEstimate heard_from(const Json& status, TimePoint start) {
   HeardEstimate heard;
   heard.supervisor = text_at(status, "state");
   heard.permit = text_at(status, "permit");
+  read_mission(status, heard);
   const auto estimate = status.find("estimate");
   if (estimate == status.end() || !estimate->is_object()) return heard;
   heard.frame = static_cast<std::uint64_t>(number_at(*estimate, "frame_number"));

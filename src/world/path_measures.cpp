@@ -94,6 +94,24 @@ double mean_absolute_error_mm(const Trace& trace, const Window& window, int axis
                  [axis](const TraceRow& row) { return 1000 * std::abs(row.error_m[axis]); });
 }
 
+double visit_absolute_error_mm(const Trace& trace, const Window& window, int axis) {
+  double sum = 0;
+  int count = 0;
+  each_row(trace, window, [&](const TraceRow& row) {
+    if (!row.heard.arrived) return;
+    sum += 1000 * std::abs(row.error_m[axis]);
+    ++count;
+  });
+  return count > 0 ? sum / count : kNothing;
+}
+
+int visits_done(const Trace& trace, const Window& window) {
+  int done = 0;
+  each_row(trace, window,
+           [&](const TraceRow& row) { done = std::max(done, row.heard.visits_done); });
+  return done;
+}
+
 Reach distance_reach_mm(const Trace& trace, const Window& window) {
   Reach reach = {kNothing, kNothing};
   each_row(trace, window, [&](const TraceRow& row) {

@@ -16,6 +16,9 @@ namespace gannet::world {
 // axis: 0 x, 1 y, 2 z of the hand.
 double mean_place_mm(const Trace& trace, const Window& window, int axis);
 double mean_absolute_error_mm(const Trace& trace, const Window& window, int axis);
+// Likewise, of what a mission had arrived at.
+double visit_absolute_error_mm(const Trace& trace, const Window& window, int axis);
+int visits_done(const Trace& trace, const Window& window);
 struct Reach {
   double least_mm, most_mm;
 };

@@ -153,6 +153,10 @@ Result<void> Simulation::listen() {
   auto news = operator_->news();
   if (!news) return news.error();
   if (news->heard) heard_ = std::move(*news->heard);
+  if (!heard_.visit_model.empty()) {
+    intent_.target = std::max(0, stage_->find(heard_.visit_model));
+    intent_.goal_m = heard_.visit_goal_m;
+  }
   // A refusal is part of the story; checks say whether it should have been.
   for (const DaemonNews::Refusal& refusal : news->refusals) {
     notes_.push_back(refusal.why);

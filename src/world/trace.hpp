@@ -27,6 +27,11 @@ struct HeardEstimate {
   std::string permit;
   Transform<LeftCamera, Target> left_from_target;
   double fitness = 0;
+  // Of a mission; empty model: none is under way.
+  std::string visit_model;
+  Eigen::Vector3d visit_goal_m = Eigen::Vector3d::Zero();
+  bool arrived = false;  // was there in this visit
+  int visits_done = 0;
 };
 
 struct TraceRow {

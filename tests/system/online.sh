@@ -19,6 +19,9 @@ camera.replay.loop = true
 control.socket = "control"
 realtime.lock_memory = false
 track.evaluations = 200
+[[mission.visit]]
+model = "disc"
+goal_z_m = 0.6
 TOML
 build_disc >/dev/null || exit 1
 "$gannetd" -c gannet.toml >daemon.log 2>&1 &
@@ -57,6 +60,12 @@ says 'config show tells origins' 0 '^track.evaluations = 200 +# .*gannet.toml:8$
 says 'config show as JSON' 0 '"values":\[\{"key":"rig"' config show --json
 says 'top shows stages' 0 '^frame_to_pose' top
 says 'top as JSON' 0 '"loops":\[' top --json
+says 'a mission is listed' 0 '^ +1 +disc +0, 0, 600 ' mission list
+says 'a mission that is not armed is refused' 1 'not armed' mission start
+says 'a mission that is not armed, as JSON' 1 '"reason":"not_armed"' mission start --json
+says 'a mission that never ran is idle' 0 '^idle, 1 visits' mission status
+says 'stopping no mission changes nothing' 0 '"state":"idle"' mission stop --json
+says 'a mission has four words' 2 'list' mission go
 says 'events tell the goal' 0 '600' events
 says 'events after the last are none' 0 NOTHING events --since 1000000
 says 'manual without a vehicle is refused' 1 'refused' manual 0.1,0,0
