@@ -98,7 +98,7 @@ $B/obj/%_avx2.o: TARGET_FLAGS := -O3 -mavx2
 $B/obj/%_avx512.o: TARGET_FLAGS := -O3 -mavx512f -mavx512bw -mavx512vl -mavx512vnni
 $B/obj/%_neon.o: TARGET_FLAGS := -O3
 $B/obj/%_scalar.o: TARGET_FLAGS := -O3
-$B/obj/src/vision/yuv_rows.o: TARGET_FLAGS := -O3
+$B/obj/src/vision/yuv_rows.o $B/obj/src/vision/bent_points.o: TARGET_FLAGS := -O3
 
 $B/obj/%.o: %.cpp $B/flags
 	@mkdir -p $(@D)

@@ -17,6 +17,8 @@
 namespace gannet::vision {
 
 class PortOptics {
+  static constexpr std::size_t kQ = 5, kLambda = 3;
+
  public:
   PortOptics() = default;  // no port: nothing of it may be asked
   explicit PortOptics(const Intrinsics& camera);
@@ -50,8 +52,43 @@ class PortOptics {
     return {value - by_q * q - by_lambda * l, by_q, by_lambda};
   }
 
+  // The same of single floats, by value, for loops over many points.
+  struct Narrow {
+    struct Squared {
+      float offset, by_q, by_lambda;
+    };
+    Squared squared(float asked_q, float asked_l) const {
+      const float q = asked_q < largest_q ? asked_q : largest_q;
+      const float l = asked_l < largest_lambda ? asked_l : largest_lambda;
+      float z0 = 0, z1 = 0, by_l = 0;
+      const auto step = [&](const float* c) {
+        z1 = z1 * q + z0;
+        z0 = z0 * q + (c[0] + l * (c[1] + l * c[2]));
+        by_l = by_l * q + (c[1] + 2 * l * c[2]);
+      };
+      static_assert(kQ == 5);  // one by one: a loop would keep points from going side by side
+      step(coefficients[4]), step(coefficients[3]), step(coefficients[2]);
+      step(coefficients[1]), step(coefficients[0]);
+      const float by_q = l * (z0 + q * z1) - (1 - flat);
+      const float by_lambda = q * (z0 + l * by_l);
+      const float value = (flat - (1 - flat) * q) + l * (q * z0);
+      return {(value - by_q * q) - by_lambda * l, by_q, by_lambda};
+    }
+    float largest_q, largest_lambda, flat;
+    float coefficients[kQ][kLambda];
+  };
+  Narrow narrow() const {
+    Narrow n = {static_cast<float>(largest_q_),
+                static_cast<float>(largest_lambda_),
+                static_cast<float>(flat_),
+                {}};
+    for (std::size_t i = 0; i < kQ; ++i)
+      for (std::size_t k = 0; k < kLambda; ++k)
+        n.coefficients[i][k] = static_cast<float>(coefficients_[i][k]);
+    return n;
+  }
+
  private:
-  static constexpr std::size_t kQ = 5, kLambda = 3;
   void fit(const FlatPort& port);
 
   std::array<double, 3> pupil_ = {}, axis_ = {0, 0, 1};
@@ -62,16 +99,19 @@ class PortOptics {
   std::array<std::array<double, kLambda>, kQ> coefficients_ = {};
 };
 
-// A rig with the optics of its ports, if it has any.
+// A rig with what its lenses and ports need again and again.
 struct RigOptics {
   StereoRig rig;
   PortOptics left, right;
+  double left_radius2, right_radius2;  // normalised, up to which the lenses are one-to-one
 
-  // Implicit: what has no port needs no more. Start-up only with ports.
+  // Implicit: a pinhole needs no more. Start-up only with lenses and ports.
   RigOptics(const StereoRig& of)
       : rig(of),
         left(of.left.port ? PortOptics(of.left) : PortOptics()),
-        right(of.right.port ? PortOptics(of.right) : PortOptics()) {}
+        right(of.right.port ? PortOptics(of.right) : PortOptics()),
+        left_radius2(of.left.valid_radius() * of.left.valid_radius()),
+        right_radius2(of.right.valid_radius() * of.right.valid_radius()) {}
 };
 
 }  // namespace gannet::vision

@@ -3,8 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "src/vision/bent_points.hpp"
 #include "src/vision/kernels/refine_sums.hpp"
 
 namespace gannet::vision {
@@ -13,8 +13,6 @@ namespace {
 using Eigen::Matrix;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr int kPartPoints = 256;  // a lens's table is made for so many at a time
 
 // A camera scaled to a level of the pyramid.
 Intrinsics at_level(Intrinsics camera, int level) {
@@ -68,99 +66,6 @@ struct ChannelSums {
     const Matrix<double, P, 1> along = jm - j * (m / w);
     hessian += (jj - j * j.transpose() / w - along * along.transpose() / var_m) / f.variance;
     slope += residual / f.variance;  // residuals are orthogonal to 1 and M already
-  }
-};
-
-// What bends the rays between a point and a pixel.
-struct Bending {
-  const Intrinsics& camera;  // at the level
-  const PortOptics* port;    // null: none
-  double radius2;            // up to which the lens is one-to-one
-
-  // Pixel of a point p told from the port's pupil, or the camera's centre; slopes: by the point's x
-  // and y. NaN where it is not seen.
-  Vector2d pixel(const Vector3d& p, Eigen::Matrix2d& slopes) const {
-    const Vector2d nowhere = Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-    Vector3d along = p;
-    Matrix<double, 3, 2> turn = Matrix<double, 3, 2>::Identity();
-    if (port != nullptr && !through_port(p, along, turn)) return nowhere;
-    if (!(along.z() > 1e-6)) return nowhere;
-    const Vector2d n = along.head<2>() / along.z();
-    if (!(n.squaredNorm() <= radius2)) return nowhere;
-    slopes = (turn.topRows<2>() - n * turn.row(2)) / along.z();
-    Vector2d bent = n;
-    if (camera.distortion != Distortion::kNone) {
-      constexpr double kStep = 1e-6;
-      bent = camera.distort(n);
-      Eigen::Matrix2d by_n;
-      for (int k = 0; k < 2; ++k) {
-        const Vector2d step = kStep * Vector2d::Unit(k);
-        by_n.col(k) = (camera.distort(n + step) - camera.distort(n - step)) / (2 * kStep);
-      }
-      slopes = by_n * slopes;
-    }
-    slopes.row(0) *= camera.fx;
-    slopes.row(1) *= camera.fy;
-    return {camera.fx * bent.x() + camera.cx, camera.fy * bent.y() + camera.cy};
-  }
-
- private:
-  // The direction in air of a point, and how it turns.
-  bool through_port(const Vector3d& p, Vector3d& along, Matrix<double, 3, 2>& turn) const {
-    const Eigen::Map<const Vector3d> axis(port->axis().data());
-    const double w = axis.dot(p), length2 = p.squaredNorm();
-    if (!(w > port->nearest_m())) return false;
-    const double q = length2 / (w * w) - 1;
-    const PortOptics::Squared of = port->squared(q, 1 / w);
-    const double ratio2 = of.at(q, 1 / w);
-    if (!(ratio2 > 0)) return false;
-    const double v = w * std::sqrt(ratio2);
-    along = p + (v - w) * axis;
-    const Vector3d v2_slope =
-        (2 * w * ratio2 - 2 * of.by_q * length2 / w - of.by_lambda) * axis + 2 * of.by_q * p;
-    turn += axis * (v2_slope / (2 * v) - axis).head<2>().transpose();
-    return true;
-  }
-};
-
-// A part's pixels where rays are bent, and how they move, for the kernels.
-struct LensTables {
-  std::array<float, kPartPoints> u, v;
-  std::array<std::array<float, kPartPoints>, 4> slopes;
-
-  void fill(const Bending& bending, const RefineEye& eye, const RefinePart& part, bool rays) {
-    for (int k = 0; k < part.n; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      const Vector3d p = point(eye, static_cast<double>(part.x[k]), static_cast<double>(part.y[k]),
-                               part.z == nullptr ? 0 : static_cast<double>(part.z[k]), rays);
-      Eigen::Matrix2d by_point = Eigen::Matrix2d::Zero();
-      const Vector2d pixel = bending.pixel(p, by_point);
-      u[at] = static_cast<float>(pixel.x());
-      v[at] = static_cast<float>(pixel.y());
-      // By x/z and y/z, as the kernels have it.
-      for (std::size_t i = 0; i < 4; ++i) {
-        const auto row = static_cast<Eigen::Index>(i / 2), col = static_cast<Eigen::Index>(i % 2);
-        slopes[i][at] = pixel.allFinite() ? static_cast<float>(by_point(row, col) * p.z()) : 0;
-      }
-    }
-  }
-
- private:
-  static Vector3d point(const RefineEye& eye, double x, double y, double z, bool rays) {
-    Vector3d p;
-    for (int k = 0; k < 3; ++k) {
-      const float* const h = eye.h + 3 * k;
-      p(k) =
-          static_cast<double>(h[0]) * x + static_cast<double>(h[1]) * y + static_cast<double>(h[2]);
-    }
-    if (!rays) {
-      for (int k = 0; k < 3; ++k) p(k) += static_cast<double>(eye.deep[k]) * z;
-      return p;
-    }
-    const float* const n = eye.plane;
-    p /= static_cast<double>(n[0]) * x + static_cast<double>(n[1]) * y + static_cast<double>(n[2]);
-    for (int k = 0; k < 3; ++k) p(k) += static_cast<double>(eye.arm[k]);
-    return p;
   }
 };
 
@@ -283,16 +188,12 @@ struct Problem {
 
   void add(bool right, const Intrinsics& camera, const RefineEye& eye, int begin, int end,
            float weight, RefineSums<P>& sums) const {
-    const bool bends = camera.distortion != Distortion::kNone || camera.port;
-    const Bending bending = {camera, camera.port ? right ? &optics.right : &optics.left : nullptr,
-                             bends ? camera.valid_radius() * camera.valid_radius() : 0};
-    LensTables tables;
-    const LensPart lens = {tables.u.data(),
-                           tables.v.data(),
-                           {tables.slopes[0].data(), tables.slopes[1].data(),
-                            tables.slopes[2].data(), tables.slopes[3].data()}};
+    const bool bends = BentPoints::bends(camera);
+    BentPoints bent(camera, right ? optics.right_radius2 : optics.left_radius2,
+                    camera.port ? right ? &optics.right : &optics.left : nullptr);
+    const LensPart lens = bent.part();
     static_assert(sizeof(Yuv) == 3 * sizeof(float));
-    const int step = bends ? kPartPoints : end - begin;
+    const int step = bends ? BentPoints::kMost : end - begin;
     for (int first = begin; first < end; first += step) {
       const auto k = static_cast<std::size_t>(first);
       RefinePart part = {points.x.data() + k,
@@ -303,7 +204,7 @@ struct Problem {
                          weight,
                          nullptr};
       if (bends) {
-        tables.fill(bending, eye, part, P == 3);
+        bent.fill(eye, part, P == 3);
         part.lens = &lens;
       }
       if constexpr (P == 6) {

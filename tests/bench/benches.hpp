@@ -23,6 +23,7 @@ void bench_frame(const Options& options, Results& results);
 void bench_acquisition(const Options& options, Results& results);
 void bench_decision(const Options& options, Results& results);
 void bench_accuracy(const Options& options, Results& results);
+void bench_refraction(const Options& options, Results& results);
 void bench_relief(const Options& options, Results& results);
 void bench_render(const Options& options, Results& results);
 void bench_jitter(const Options& options, Results& results);

@@ -29,7 +29,7 @@ Eigen::Vector2d meet(const Pose& pose, const Eigen::Vector3d& origin, const Eige
 
 }  // namespace
 
-ClutteredScene::ClutteredScene(int width, int height) {
+ClutteredScene::ClutteredScene(int width, int height, Bend bend) {
   for (Intrinsics* camera : {&scene_.rig.left, &scene_.rig.right}) {
     camera->width = width;
     camera->height = height;
@@ -39,6 +39,24 @@ ClutteredScene::ClutteredScene(int width, int height) {
   }
   scene_.ground = test::Texture(12, 0.11, 25);
   scene_.noise = 3;
+  bend_light(bend);
+}
+
+void ClutteredScene::bend_light(Bend bend) {
+  for (Intrinsics* camera : {&scene_.rig.left, &scene_.rig.right}) {
+    if (bend == Bend::kLens || bend == Bend::kPortAndLens) {
+      camera->distortion = Distortion::kBrown;
+      camera->coefficients = {-0.12, 0.03, 0.0005, -0.0003, 0};
+    }
+    if (bend == Bend::kPort || bend == Bend::kPortAndLens) {
+      camera->port = FlatPort{.normal = Eigen::Vector3d(0.02, -0.03, 1).normalized(),
+                              .distance_m = 0.06,
+                              .thickness_m = 0.015};
+      const double by_port = camera->magnification().x() / camera->fx;
+      camera->fx /= by_port;
+      camera->fy /= by_port;
+    }
+  }
 }
 
 vision::PatchModel ClutteredScene::model(int inside_points) const {
@@ -91,16 +109,9 @@ hal::Image ClutteredScene::eye(bool left, const Pose& pose, const std::vector<Ot
 
 void ClutteredScene::paint(bool left, const Other& other, const Pose& target, Random& random,
                            test::Picture& picture) const {
-  const Intrinsics& camera = left ? rig().left : rig().right;
-  const auto left_from_eye = rig().right_from_left.inverse();
   for (int row = 0; row < picture.height; ++row) {
     for (int col = 0; col < picture.width; ++col) {
-      Eigen::Vector3d ray = camera.ray({col, row});
-      Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-      if (!left) {
-        ray = left_from_eye.rotation * ray;
-        origin = left_from_eye.translation;
-      }
+      const auto [origin, ray] = scene_.line_of_sight(left, col, row);
       const Eigen::Vector2d hit = meet(other.pose, origin, ray);
       if (!scene_.covers(hit.x(), hit.y())) continue;
       const Eigen::Vector2d on_target = meet(target, origin, ray);

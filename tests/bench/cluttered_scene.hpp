@@ -16,10 +16,14 @@ struct Pair {
   Pose truth;
 };
 
+// What bends light on its way. A port stands 60 mm before a lens and is 15 mm thick; the camera
+// behind it has as much shorter a focal length as makes targets as large in the picture.
+enum class Bend { kNothing, kLens, kPort, kPortAndLens };
+
 class ClutteredScene {
  public:
   // width × height with the focal length of 640 pixels at 640, 12 cm between the eyes.
-  ClutteredScene(int width, int height);
+  ClutteredScene(int width, int height, Bend bend = Bend::kNothing);
 
   const StereoRig& rig() const { return scene_.rig; }
   vision::PatchModel model(int inside_points) const;
@@ -29,6 +33,7 @@ class ClutteredScene {
   Pair see(const Pose& pose, std::uint64_t seed) const;
 
  private:
+  void bend_light(Bend bend);
   struct Other {
     test::Texture texture;
     Pose pose;

@@ -14,7 +14,7 @@ constexpr const char* kHelp =
     "  --quick   small pictures, few turns: does it run? The figures mean nothing.\n"
     "  --only    kernels | fitness | handover | frame | acquisition | decision | accuracy | relief "
     "|\n"
-    "            render | jitter\n"
+    "            refraction | render | jitter\n"
     "  --scenes  of the acquisition and the decision, 60 unless told; each method sees all of "
     "them\n"
     "  --trials  of the accuracy, 16 for each pose and noise unless told\n"
@@ -25,12 +25,17 @@ struct Group {
   const char* name;
   void (*run)(const gannet::bench::Options&, gannet::bench::Results&);
 };
-constexpr Group kGroups[] = {
-    {"kernels", gannet::bench::bench_kernels},         {"fitness", gannet::bench::bench_fitness},
-    {"handover", gannet::bench::bench_handover},       {"frame", gannet::bench::bench_frame},
-    {"acquisition", gannet::bench::bench_acquisition}, {"accuracy", gannet::bench::bench_accuracy},
-    {"relief", gannet::bench::bench_relief},           {"decision", gannet::bench::bench_decision},
-    {"render", gannet::bench::bench_render},           {"jitter", gannet::bench::bench_jitter}};
+constexpr Group kGroups[] = {{"kernels", gannet::bench::bench_kernels},
+                             {"fitness", gannet::bench::bench_fitness},
+                             {"handover", gannet::bench::bench_handover},
+                             {"frame", gannet::bench::bench_frame},
+                             {"acquisition", gannet::bench::bench_acquisition},
+                             {"accuracy", gannet::bench::bench_accuracy},
+                             {"relief", gannet::bench::bench_relief},
+                             {"decision", gannet::bench::bench_decision},
+                             {"refraction", gannet::bench::bench_refraction},
+                             {"render", gannet::bench::bench_render},
+                             {"jitter", gannet::bench::bench_jitter}};
 
 }  // namespace
 

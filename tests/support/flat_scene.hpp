@@ -151,7 +151,7 @@ struct FlatScene {
     return vision::make_patch_model(*patch, options);
   }
 
- private:
+  // What a pixel shows lies along here.
   struct Line {
     Eigen::Vector3d origin, ray;  // in Σ_CL
   };
@@ -162,6 +162,7 @@ struct FlatScene {
     return {left_from_eye(in_eye.origin), left_from_eye.rotation * in_eye.ray};
   }
 
+ private:
   // Through a port face by face, by Snell's law between vectors: not as src/core does it, so that a
   // fault there cannot cancel itself.
   static Line sight(const Intrinsics& camera, const Eigen::Vector2d& pixel) {
