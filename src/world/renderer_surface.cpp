@@ -13,7 +13,11 @@ constexpr int kRun = 16;  // pixels between two nodes
 // to 4.
 constexpr float kProbesOfTile = 1.5f;
 constexpr float kProbesOfPicture = 4;
-constexpr float kNearest_m = 0.02f;  // nothing nearer is drawn
+// What is nearer or farther is not drawn. A ray along a plane meets it endlessly far away, where no
+// place of its picture is a number any more.
+constexpr float kNearest_m = 0.02f, kFarthest_m = 1000;
+
+bool is_drawn(float depth_m) { return depth_m > kNearest_m && depth_m < kFarthest_m; }
 
 // Within 2e-4: mantissa by a polynomial, no libm, so the same everywhere. x > 0.
 float log2_of(float x) {
@@ -152,7 +156,7 @@ Surface::Footprint Surface::footprint(const SightTable& sights, int column, int 
   const Hit right = hit(run[1]);
   const Hit below = hit(sights.run(column, row + 1)[0]);
   Footprint f = {{static_cast<float>(texture_->levels()), 1, 0, 0}, splat(1)};
-  if (here.depth < kNearest_m || right.depth < kNearest_m || below.depth < kNearest_m) return f;
+  if (!is_drawn(here.depth) || !is_drawn(right.depth) || !is_drawn(below.depth)) return f;
   const float ux = right.u - here.u, uy = below.u - here.u;
   const float vx = right.v - here.v, vy = below.v - here.v;
   const float width_u = std::sqrt(ux * ux + uy * uy) + 1e-12f;
@@ -224,7 +228,7 @@ void Surface::draw_run(const SightTable::Run& sights, int count, const Footprint
   for (int i = 0; i < count; ++i) {
     const Sight sight = sights[i];
     const Hit at = hit(sight);
-    if (!(at.depth > kNearest_m)) continue;
+    if (!is_drawn(at.depth)) continue;
     const float t = static_cast<float>(i) * (1.0f / kRun);
     const Float4 filter = a.filter + (b.filter - a.filter) * t;
     const float share = tiled_ ? 1.0f : border(at.u, at.v, a.edge + (b.edge - a.edge) * t);
@@ -257,7 +261,7 @@ void Surface::draw_row(const SightTable& sights, int row, const WaterTable& wate
 
 float Surface::opaque_depth(const Sight& sight) const {
   const Hit at = hit(sight);
-  if (!(at.depth > kNearest_m)) return 0;
+  if (!is_drawn(at.depth)) return 0;
   if (tiled_) return at.depth;
   if (at.u < 0 || at.u > 1 || at.v < 0 || at.v > 1) return 0;
   return texture_->sample(at.u, at.v, 0)[3] > 0.5f ? at.depth : 0;

@@ -323,6 +323,23 @@ TEST(Renderer, RepeatsBitForBitOnAnyNumberOfThreads) {
 }
 
 // Rows of open water are done once where nothing is added to them; planar pictures do each row.
+// A vehicle that strays may look along the bottom, which then is endlessly far.
+TEST(Renderer, LooksAlongASurfaceWithoutHarm) {
+  StereoRig rig = small_rig();
+  rig.left.cy = rig.right.cy = 120;  // a row of pixels that looks straight ahead
+  Renderer sut(rig, busy_textures(), {}, 1);
+  Scene scene = busy_scene();
+  Pictures out = blank(rig);
+  Serial serial;
+  for (const double pitch : {-1.5707963267948966, -1.57079632, -1.5708, 1.5707963267948966}) {
+    scene.background[0].pose.rotation = quaternion_from_rpy(pitch, 0, 0);
+    sut.render(scene, {}, 0, 0, serial, target_of(out.left), target_of(out.right));
+    for (int at = 0; at < rig.left.width * rig.left.height; ++at) {
+      ASSERT_TRUE(std::isfinite(sut.light(Eye::kLeft)[at][1])) << pitch << " " << at;
+    }
+  }
+}
+
 TEST(Renderer, RowsThatRepeatAreTheRowsThemselves) {
   std::vector<Texture> textures;
   textures.emplace_back(blot(64, 0.3), Texture::Edge::kClamp);
