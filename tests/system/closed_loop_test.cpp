@@ -77,6 +77,7 @@ TEST(ClosedLoop, goes_where_a_hand_steers_and_comes_back) { expect_all_passed("r
 TEST(ClosedLoop, follows_with_frames_missing) { expect_all_passed("rov_dropped_frames"); }
 TEST(ClosedLoop, follows_the_papers_path) { expect_all_passed("rov_station_keeping"); }
 TEST(ClosedLoop, follows_it_through_flat_ports) { expect_all_passed("rov_port"); }
+TEST(ClosedLoop, visits_targets_in_turn_and_gives_one_up) { expect_all_passed("rov_mission"); }
 
 TEST(ClosedLoop, holds_on_frozen_and_backward_frames) { expect_all_passed("rov_camera_faults"); }
 TEST(ClosedLoop, stops_when_the_bus_is_off_or_down) { expect_all_passed("rov_bus_faults"); }
