@@ -74,7 +74,7 @@ refuses 'rig: zero focal length' 'focal.toml:4: left.fx: 0 px is outside' "${loc
 refuses 'rig: a mirror' 'mirror.toml:16: right_from_left.rotation: is not a rotation' "${locate[@]}" --rig mirror.toml
 refuses 'rig: no baseline' 'baseline.toml:17: right_from_left.translation_m: ' "${locate[@]}" --rig baseline.toml
 refuses 'rig: an unknown key' 'unknown.toml:18: right_from_left.focus: unknown key' "${locate[@]}" --rig unknown.toml
-refuses 'rig: a port' 'port.toml:18: port: .* not supported yet' "${locate[@]}" --rig port.toml
+refuses 'rig: one port for both cameras' 'port.toml:18: port: each camera has its own: write \[left.port\] and \[right.port\]' "${locate[@]}" --rig port.toml
 refuses 'rig: no TOML' 'broken.toml:1: not valid TOML' "${locate[@]}" --rig broken.toml
 refuses 'rig: a picture' 'target.png:1: ' "${locate[@]}" --rig target.png
 
