@@ -5,6 +5,7 @@
 
 #include "src/report/statistics.hpp"
 #include "src/report/table.hpp"
+#include "src/track/search_space.hpp"
 #include "src/track/target_tracker.hpp"
 #include "src/track/track_config.hpp"
 #include "tests/report/contest.hpp"
@@ -13,8 +14,19 @@ namespace gannet::robustness {
 namespace {
 
 constexpr double kFramesPerSecond = 30;
+const track::TrackConfig kConfig;
+
+// What the tracker is asked to look at.
+track::SearchSpace asked_space(const StereoRig& rig) {
+  constexpr double kRadians = 3.14159265358979323846 / 180;
+  return {rig,
+          {kConfig.z_min_m, kConfig.z_max_m, kConfig.half_width_x_m, kConfig.half_width_y_m,
+           kConfig.tilt_deg * kRadians, kConfig.roll_deg * kRadians}};
+}
 
 struct Bench {
+  const Cast* cast;
+  track::SearchSpace asked;
   Studio studio;
   std::unique_ptr<track::TargetTracker> tracker;
 };
@@ -49,15 +61,19 @@ class Drift {
   std::vector<Eigen::Vector3d> step_m_;
 };
 
-void count_frame(const PoseEstimate& got, const Staged& staged, Show show, int frame, bool& was,
-                 LockCount& count) {
+void count_with(const PoseEstimate& got, const Staged& staged, const Bench& bench,
+                LockCount& count) {
+  const bool detected =
+      got.state == TrackState::kLocked && got.found && is_right(got.left_from_target, staged.truth);
+  ++count.frames_with;
+  count.detected += detected;
+  if (!sees_all(*bench.cast, staged) || !bench.asked.contains(staged.truth)) return;
+  ++count.frames_asked;
+  count.detected_asked += detected;
+}
+
+void count_without(const PoseEstimate& got, bool& was, LockCount& count) {
   const bool locked = got.state == TrackState::kLocked;
-  if (show == Show::kTarget) {
-    if (frame < kSettleFrames) return;
-    ++count.frames_with;
-    count.detected += locked && got.found && is_right(got.left_from_target, staged.truth);
-    return;
-  }
   ++count.frames;
   count.locked += locked;
   count.false_locks += locked && !was;
@@ -81,7 +97,11 @@ LockCount play(int clip, Show show, Bench& bench, std::uint64_t seed) {
     const TimePoint time = time_from_ns(0) + from_seconds(1 + frame / kFramesPerSecond);
     const PoseEstimate got = bench.tracker->process(shot.left.view(), shot.right.view(), time,
                                                     static_cast<std::uint64_t>(frame), {}, serial);
-    count_frame(got, staged, show, frame, was, count);
+    if (show == Show::kDistractorsAlone) {
+      count_without(got, was, count);
+    } else if (frame >= kSettleFrames) {
+      count_with(got, staged, bench, count);
+    }
   }
   count.missed_clips = show == Show::kTarget && count.detected == 0;
   return count;
@@ -90,11 +110,17 @@ LockCount play(int clip, Show show, Bench& bench, std::uint64_t seed) {
 Result<std::vector<Bench>> make_benches(int workers, const Campaign& campaign, const Cast& cast) {
   std::vector<Bench> out;
   for (int i = 0; i < workers; ++i) {
-    auto tracker = track::TargetTracker::create({}, cast.rig, cast.models);
+    auto tracker = track::TargetTracker::create(kConfig, cast.rig, cast.models);
     if (!tracker) return tracker.error();
-    out.push_back({Studio(cast, campaign.seed), std::move(*tracker)});
+    out.push_back({&cast, asked_space(cast.rig), Studio(cast, campaign.seed), std::move(*tracker)});
   }
   return out;
+}
+
+std::string share_of(long part, long whole) {
+  if (whole == 0) return "none of 0";
+  const double share = static_cast<double>(part) / static_cast<double>(whole);
+  return report::number(100 * share, 2) + " % of " + std::to_string(whole);
 }
 
 }  // namespace
@@ -117,6 +143,7 @@ Result<LockCount> count_locks(const Campaign& campaign, const Cast& cast, Parall
   for (const LockCount& c : counts) {
     sum.frames += c.frames, sum.locked += c.locked, sum.false_locks += c.false_locks;
     sum.frames_with += c.frames_with, sum.detected += c.detected;
+    sum.frames_asked += c.frames_asked, sum.detected_asked += c.detected_asked;
     sum.missed_clips += c.missed_clips;
   }
   return sum;
@@ -126,13 +153,14 @@ std::string lock_summary(const LockCount& count) {
   using report::number;
   const double hours = static_cast<double>(count.frames) / kFramesPerSecond / 3600;
   const auto [low, high] = report::poisson95(count.false_locks);
-  const double share = static_cast<double>(count.detected) / static_cast<double>(count.frames_with);
   return "without the target: " + std::to_string(count.false_locks) + " false locks in " +
          number(hours, 3) + " h (" + std::to_string(count.frames) + " frames, " +
          std::to_string(count.locked) + " locked): 95 % interval " + number(low / hours, 2) +
          " ... " + number(high / hours, 2) + " an hour\nwith it: locked on the right pose in " +
-         number(100 * share, 2) + " % of " + std::to_string(count.frames_with) +
-         " frames; never in " + std::to_string(count.missed_clips) + " clips\n";
+         share_of(count.detected, count.frames_with) + " frames; never in " +
+         std::to_string(count.missed_clips) +
+         " clips\nof these, all of it in both views and in the " +
+         "volume that is searched: " + share_of(count.detected_asked, count.frames_asked) + "\n";
 }
 
 }  // namespace gannet::robustness

@@ -22,7 +22,8 @@ struct LockCount {
   long frames = 0, locked = 0;         // without the target
   int false_locks = 0;                 // times that it went to locked; two in one clip are two
   long frames_with = 0, detected = 0;  // with it
-  int missed_clips = 0;                // with it, never locked on it
+  long frames_asked = 0, detected_asked = 0;  // of them: all of it in both views and the volume
+  int missed_clips = 0;                       // with it, never locked on it
 };
 
 // done(n): n clips are over; on the caller's thread.

@@ -56,6 +56,10 @@ world::Scenario scenario_of_creatures() {
 
 }  // namespace
 
+bool sees_all(const Cast& cast, const Staged& staged) {
+  return sees_all(cast.rig, staged.truth, cast.size_m[static_cast<std::size_t>(staged.creature)]);
+}
+
 Result<Cast> make_cast(const std::string& assets, const std::string& folder) {
   const world::Scenario scenario = scenario_of_creatures();
   auto pictures = world::gather_pictures(scenario, assets);

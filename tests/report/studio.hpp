@@ -36,6 +36,8 @@ struct Staged {
   world::Scene scene;
 };
 enum class Show { kTarget, kDistractorsAlone };
+// Whether both cameras see the whole target, whatever may be before it.
+bool sees_all(const Cast& cast, const Staged& staged);
 
 struct Shot {
   int creature = 0;

@@ -22,6 +22,7 @@ check 'the easiest cell is right' test "${easiest//[^0-9]/}" -eq 1
 check 'a campaign of one clip without the target and one with it' test $? -eq 0
 check 'the clips were watched whole' grep -q ' (120 frames, ' out.txt
 check 'the target was locked' grep -q ' of 114 frames; never in 0 clips' out.txt
+check 'the frames that count by themselves were seen' grep -Eq 'searched: [0-9.]+ % of [1-9]' out.txt
 "$report" --only nothing >out.txt 2>err.txt
 check 'a plane that is not there is refused' test $? -eq 2
 "$report" --trials 0 >out.txt 2>err.txt
