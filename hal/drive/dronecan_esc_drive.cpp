@@ -15,6 +15,7 @@ constexpr std::uint8_t kCommandPriority = 8, kStatusPriority = 16, kServicePrior
 constexpr Duration kArmingPeriod = std::chrono::milliseconds(500);
 constexpr Duration kUrgentStops = std::chrono::milliseconds(300);  // in each cycle: one may be lost
 constexpr Duration kHeartbeatPeriod = std::chrono::seconds(1);
+constexpr Duration kConflictTime = std::chrono::seconds(2);  // heartbeats come once a second
 constexpr double kRadPerSPerRpm = 2 * std::numbers::pi / 60;
 
 std::vector<Subscription> subscriptions() {
@@ -113,6 +114,7 @@ void DroneCanEscDrive::receive(const CanFrame& frame, TimePoint time) {
   const auto sender = header_of(frame);
   if (sender && sender->source == own_id_) {
     ++counters_.own_id_conflicts;
+    conflict_ = time;
     return;
   }
   if (const auto transfer = receiver_.receive(frame, time)) take(*transfer, time);
@@ -293,6 +295,13 @@ void DroneCanEscDrive::set_states(TimePoint now) {
 
 DriveGroupHealth DroneCanEscDrive::health(TimePoint now) const {
   DriveGroupHealth health = {.all_alive = true};
+  // Two that command the same ESCs: what a motor does is nobody's will.
+  if (counters_.own_id_conflicts > 0 && now - conflict_ <= kConflictTime) {
+    health.any_fault = true;
+    health.first_bad = 0;
+    health.trouble = "another node on the bus has our node id";
+    health.trouble_code = own_id_;
+  }
   for (int i = 0; i < size(); ++i) {
     const auto node = static_cast<std::uint8_t>(motors_[static_cast<std::size_t>(i)].node_id);
     const bool alive = is_alive(i, now), faulty = watch_.is_faulty(node);

@@ -9,6 +9,7 @@
 //
 // A node that restarts while enabled is faulty, and its motors are told to stop, until enable has
 // been taken away.
+// A frame of somebody else under our node id is a fault until 2 s have passed without one.
 // A motor is alive when its node's heartbeat and, where it has feedback, its status are fresh.
 // In feedback a value that the ESC does not know is NaN. Servo thread; RT safe after creation.
 #pragma once
@@ -108,6 +109,7 @@ class DroneCanEscDrive final : public DriveGroup {
 
   bool is_enabled_ = false;
   bool has_started_ = false;
+  TimePoint conflict_ = {};              // the last frame of somebody else under our node id
   TimePoint start_ = {}, changed_ = {};  // the first cycle; enable was given or taken away
   Timer command_timer_, arming_timer_, heartbeat_timer_;
   std::uint8_t command_id_ = 0, arming_id_ = 0, heartbeat_id_ = 0;

@@ -344,10 +344,18 @@ TEST_F(DroneCanEscDriveTest, AllocationRequestsAreCountedAndShown) {
   EXPECT_EQ(sut_->last_allocation_id()[5], 6);
 }
 
-TEST_F(DroneCanEscDriveTest, AnotherNodeUnderOurIdIsCounted) {
+TEST_F(DroneCanEscDriveTest, AnotherNodeUnderOurIdIsAFaultUntilItHasBeenGoneForAWhile) {
   make(with_motors(1));
-  sut_->receive(frames_from({"1001550A#00000000000000C0"})[0], at_ms(0));
+  hear_well(1, at_ms(0));
+  EXPECT_FALSE(sut_->health(at_ms(1)).any_fault);
+  sut_->receive(frames_from({"1001550A#00000000000000C0"})[0], at_ms(10));
   EXPECT_EQ(sut_->counters().own_id_conflicts, 1u);
+  const DriveGroupHealth health = sut_->health(at_ms(2010));
+  EXPECT_TRUE(health.any_fault);
+  EXPECT_EQ(health.first_bad, 0);
+  EXPECT_STREQ(health.trouble, "another node on the bus has our node id");
+  EXPECT_EQ(health.trouble_code, 10u);
+  EXPECT_FALSE(sut_->health(at_ms(2011)).any_fault);
 }
 
 TEST_F(DroneCanEscDriveTest, TheMostFramesSufficeForTwentyMotorsAndAllDuties) {
