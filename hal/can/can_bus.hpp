@@ -22,6 +22,7 @@ struct CanCounters {
   std::uint64_t sent = 0;
   std::uint64_t received = 0;
   std::uint64_t send_refused = 0;     // no room, or the bus is down
+  std::uint64_t send_no_room = 0;     // of these: the bus was up, but older frames still waited
   std::uint64_t receive_dropped = 0;  // lost before we read them
   std::uint64_t malformed = 0;
   // Of buses with a controller that tells:

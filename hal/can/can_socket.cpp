@@ -27,8 +27,8 @@ Result<void> CanSocket::check(const std::string& interface, const std::vector<Ca
 }
 
 CanSocket::CanSocket(const std::string& interface, const std::vector<CanFilter>& wanted,
-                     CanCalls& calls)
-    : interface_(interface), calls_(calls) {
+                     int most_waiting, CanCalls& calls)
+    : interface_(interface), calls_(calls), most_waiting_(most_waiting) {
   static_assert(sizeof(Filter) == sizeof(can_filter));
   for (const CanFilter& filter : wanted) {
     // Exactly these: the other format, and remote frames, match no filter.
@@ -74,7 +74,7 @@ CanSocket::Failure CanSocket::open() {
 // Before binding, so that no frame gets past them.
 int CanSocket::set_options(int fd) {
   const can_err_mask_t errors = CAN_ERR_MASK;
-  const int on = 1, off = 0;
+  const int on = 1, off = 0, send_buffer = most_waiting_ * kWaitingBytes / 2;
   const struct {
     int level, name;
     const void* value;
@@ -85,8 +85,10 @@ int CanSocket::set_options(int fd) {
       {SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, &off, sizeof off},
       {SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on},
       {SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on},
+      {SOL_SOCKET, SO_SNDBUF, &send_buffer, sizeof send_buffer},
   };
   for (const auto& option : options) {
+    if (option.name == SO_SNDBUF && option.level == SOL_SOCKET && most_waiting_ == 0) continue;
     const int result = calls_.set_option(fd, option.level, option.name, option.value,
                                          static_cast<socklen_t>(option.size));
     if (result < 0) return result;

@@ -29,6 +29,10 @@ struct CanArrival {
 class CanSocket {
  public:
   static constexpr int kBatch = 32;
+  // What a waiting frame costs of SO_SNDBUF: a buffer of 512 bytes and its head of 256 on kernels
+  // of 64 bits (6.1; more on others, then fewer frames wait). The kernel doubles what is set,
+  // refuses a frame (EAGAIN) once the sum has reached it, and grants 4608 at least: 6 frames.
+  static constexpr int kWaitingBytes = 768;
   enum class Step : std::uint8_t { kDone, kSocket, kInterface, kOptions, kBind };
   struct Failure {
     Step step = Step::kDone;
@@ -38,7 +42,9 @@ class CanSocket {
   // Error: a name that no interface can have, more filters than the kernel takes.
   static Result<void> check(const std::string& interface, const std::vector<CanFilter>& wanted);
   // wanted: empty means all data frames. Error frames always come too, own frames never.
-  CanSocket(const std::string& interface, const std::vector<CanFilter>& wanted, CanCalls& calls);
+  // most_waiting: frames of ours that may wait for the bus; 0: as many as the kernel likes.
+  CanSocket(const std::string& interface, const std::vector<CanFilter>& wanted, int most_waiting,
+            CanCalls& calls);
   ~CanSocket();
   CanSocket(const CanSocket&) = delete;
   CanSocket& operator=(const CanSocket&) = delete;
@@ -70,6 +76,7 @@ class CanSocket {
   const std::string interface_;
   CanCalls& calls_;
   std::vector<Filter> filters_;
+  const int most_waiting_;
   int fd_ = -1;
   int index_ = 0;
   std::uint64_t dropped_ = 0;

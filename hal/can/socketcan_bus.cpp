@@ -12,15 +12,17 @@ constexpr Duration kLookPeriod = milliseconds(10), kLongestBackoff = millisecond
 constexpr Duration kStampSlack = milliseconds(1);  // clocks are not read at one instant
 constexpr std::size_t kBatch = CanSocket::kBatch;
 
+bool has_no_room(int error) { return error == EAGAIN || error == ENOBUFS; }
 bool is_link_error(int error) { return error == ENETDOWN || error == ENODEV || error == ENXIO; }
 
 }  // namespace
 
 Result<std::unique_ptr<SocketCanBus>> SocketCanBus::open(const std::string& interface,
                                                          const std::vector<CanFilter>& wanted,
-                                                         TimePoint, CanCalls& calls) {
+                                                         int most_waiting, TimePoint,
+                                                         CanCalls& calls) {
   if (auto good = CanSocket::check(interface, wanted); !good) return good.error();
-  std::unique_ptr<SocketCanBus> bus(new SocketCanBus(interface, wanted, calls));
+  std::unique_ptr<SocketCanBus> bus(new SocketCanBus(interface, wanted, most_waiting, calls));
   const CanSocket::Failure failure = bus->open_socket();
   if (failure.step != CanSocket::Step::kDone) return bus->socket_.explain(failure);
   return bus;
@@ -104,8 +106,9 @@ int SocketCanBus::send(std::span<const CanFrame> frames, TimePoint now) {
       const std::size_t count = std::min(kBatch, frames.size() - taken);
       const int sent = socket_.send(frames.subspan(taken, count));
       if (sent < 0) note_error(-sent, now);
-      taken += static_cast<std::size_t>(std::max(sent, 0));
-      if (sent < static_cast<int>(count)) break;
+      if (has_no_room(-sent)) counters_.send_no_room += frames.size() - taken;
+      if (sent <= 0) break;
+      taken += static_cast<std::size_t>(sent);  // of a part, the next call tells what ended it
     }
   }
   counters_.sent += taken;

@@ -11,7 +11,12 @@
 // by name, after 10 ms and then ever later up to 0.5 s, and opened anew. Nothing ever waits for the
 // bus. Opening anew asks for the kernel's network lock, which `ip link` may hold for moments;
 // nothing is allowed to move then. Frames offered while the bus is off or down are refused, so that
-// no old setpoint waits in a queue for its return.
+// no old setpoint waits in a queue for its return. While a bus is up but takes nothing (held up by
+// others, nobody confirms), most_waiting frames wait in the interface's queue, those that the
+// controller holds beside them, and what comes then is refused and counted: EAGAIN where the
+// socket's send buffer is the limit, ENOBUFS where the interface's txqueuelen is. The send buffer
+// counts a frame until the driver takes it (its echo is charged to nobody), so a queue that
+// somebody made long for other programs makes ours no longer.
 //
 // CAN FD would be a kind beside this one: its frames have another size and flags.
 // Created at start-up; then one thread, RT safe.
@@ -31,11 +36,12 @@ namespace gannet::hal {
 
 class SocketCanBus final : public CanBus {
  public:
-  // wanted: empty means all. An interface that is down is accepted: the bus begins as kDown.
+  // wanted: empty means all. most_waiting: see above; 0: as many as the kernel likes, and it grants
+  // 6 at least. An interface that is down is accepted: the bus begins as kDown.
   // Error: no such interface, none of CAN, a kernel without CAN, too many filters; what to do.
   static Result<std::unique_ptr<SocketCanBus>> open(const std::string& interface,
                                                     const std::vector<CanFilter>& wanted,
-                                                    TimePoint now,
+                                                    int most_waiting, TimePoint now,
                                                     CanCalls& calls = linux_can_calls());
 
   int send(std::span<const CanFrame> frames, TimePoint now) override;
@@ -53,8 +59,9 @@ class SocketCanBus final : public CanBus {
     Duration realtime_offset;
   };
 
-  SocketCanBus(const std::string& interface, const std::vector<CanFilter>& wanted, CanCalls& calls)
-      : calls_(calls), socket_(interface, wanted, calls) {}
+  SocketCanBus(const std::string& interface, const std::vector<CanFilter>& wanted, int most_waiting,
+               CanCalls& calls)
+      : calls_(calls), socket_(interface, wanted, most_waiting, calls) {}
   CanSocket::Failure open_socket();
   void read_link();
   bool is_up(TimePoint now);

@@ -108,6 +108,11 @@ std::vector<CanFilter> DroneCanEscDrive::wanted_frames(const DriveConfig& config
   return filters;
 }
 
+// RawCommand, at 14 bits for each index; arming 1, heartbeat 1, answer 10, request 1; one to spare.
+int DroneCanEscDrive::max_frames() const {
+  return frames_of((14 * command_.commands.size() + 7) / 8) + 14;
+}
+
 // ---- frames in ----------------------------------------------------------------------------------
 
 void DroneCanEscDrive::receive(const CanFrame& frame, TimePoint time) {

@@ -44,7 +44,7 @@ class DroneCanEscDrive final : public DriveGroup {
   void receive(const CanFrame& frame, TimePoint time) override;
   int send(std::span<const DriveSetpoint> setpoints, bool enable, TimePoint now,
            std::span<CanFrame> out) override;
-  int max_frames() const override { return kMaxFrames; }
+  int max_frames() const override;
   std::span<const DriveFeedback> feedback() const override { return feedback_; }
   DriveGroupHealth health(TimePoint now) const override;
   std::uint64_t malformed() const override { return malformed_ + receiver_.counters().malformed; }
@@ -60,9 +60,6 @@ class DroneCanEscDrive final : public DriveGroup {
   static std::vector<CanFilter> wanted_frames(const DriveConfig& config);
 
  private:
-  // RawCommand of 20 ESCs 6, arming 1, heartbeat 1, answer 10, request 1; a few to spare.
-  static constexpr int kMaxFrames = 24;
-
   struct Client {  // who asked for our node info
     std::uint8_t node_id = 0, transfer_id = 0, priority = 0;
   };

@@ -141,12 +141,14 @@ Result<void> check_recording(const config::LoadedConfig& loaded) {
   return {};
 }
 
-Result<Devices> open_devices(const config::LoadedConfig& loaded, TimePoint now) {
+Result<Devices> open_devices(const config::LoadedConfig& loaded, const hal::DriveGroup* drives,
+                             TimePoint now) {
   const config::DaemonConfig& config = loaded.config;
   Devices devices;
   if (auto opened = open_lines(config.gpio, devices, now); !opened) return opened.error();
-  if (config.vehicle.kind != "none") {
-    auto bus = hal::make_can_bus(config.can, hal::wanted_frames(config.drive), now);
+  if (drives != nullptr) {
+    auto bus =
+        hal::make_can_bus(config.can, hal::wanted_frames(config.drive), drives->max_frames(), now);
     if (!bus) return at_key("can", bus.error());
     devices.bus = std::move(*bus);
   }

@@ -45,7 +45,8 @@ struct Devices {
   std::unique_ptr<hal::DigitalOutput> strobe;   // active, until destruction
 };
 
-// Error: which device, and what is wrong with it.
-Result<Devices> open_devices(const config::LoadedConfig& loaded, TimePoint now);
+// drives: of parts; null without a vehicle. Error: which device, and what is wrong with it.
+Result<Devices> open_devices(const config::LoadedConfig& loaded, const hal::DriveGroup* drives,
+                             TimePoint now);
 
 }  // namespace gannet::daemon

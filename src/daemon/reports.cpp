@@ -213,6 +213,7 @@ Json Reports::drops_json() const {
   json["servo_overruns"] = servo_->overruns;
   json["can_sent"] = servo_->can.sent;
   json["can_send_refused"] = servo_->can.send_refused;
+  json["can_send_no_room"] = servo_->can.send_no_room;
   json["can_received"] = servo_->can.received;
   json["can_receive_dropped"] = servo_->can.receive_dropped;
   json["can_malformed"] = servo_->can.malformed + servo_->drives_malformed;

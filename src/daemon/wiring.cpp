@@ -67,7 +67,7 @@ Result<void> Daemon::open() {
     if (!steps) return steps.error();
     steps_.emplace(std::move(*steps));
   }
-  auto devices = open_devices(loaded_, clock_->now());
+  auto devices = open_devices(loaded_, parts_.drives.get(), clock_->now());
   if (!devices) return devices.error();
   devices_ = std::move(*devices);
   auto archive = ArchiveLoop::create(config.frames, &report_lines_.archive_events);

@@ -47,7 +47,7 @@ Result<void> switch_link(const std::string& interface, bool up) {
 
 Result<std::unique_ptr<hal::CanBus>> CanEnd::open(TimePoint now) const {
   if (config_.kind == "local") return as_bus(hal::LocalCanHub::listen(config_.name));
-  return as_bus(hal::SocketCanBus::open(config_.name, {}, now));
+  return as_bus(hal::SocketCanBus::open(config_.name, {}, 0, now));
 }
 
 Result<std::unique_ptr<CanEnd>> CanEnd::create(const CanEndConfig& config, TimePoint now,

@@ -1,5 +1,6 @@
 # Three of ten pairs never arrive. Where two in a row are missing the estimate grows old (at 8 Hz two
 # periods more than full_age_s), the ROV holds until the next, and servoes on.
+DURATION=11
 EVENTS='
   0 s: drop 0.3
 '
@@ -12,7 +13,10 @@ play() {
 }
 judge() {
   local from to
-  from=$(at servoing) to=$(plus "$(at servoing)" 7)
+  # The journal's word: the play may look only after the first pause. The world lasts longer than to.
+  from=$(logged "$(at arm)" 'armed → servoing')
+  to=$(plus "$from" 7)
+  check "the world lasts to" "$(at figures end)" ">" "$to"
   world_checks
   check "commands to turn" "$(turns_between "$from")" ">" 100
   check "servoing for 7 s" "$(state_share servoing "$from" "$to")" ">" 70 %

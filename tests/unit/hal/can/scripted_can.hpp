@@ -7,6 +7,7 @@
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <deque>
@@ -64,6 +65,13 @@ class ScriptedCan final : public hal::CanCalls {
   void bring_back(int new_index) {
     index = new_index;
     come_up();
+  }
+
+  // The bus takes nothing: frames wait, each charged to its socket. Then it takes all of them.
+  void hold_up() { is_held_up_ = true; }
+  void flow() {
+    is_held_up_ = false;
+    waiting_bytes_ = 0;
   }
 
   void arrive(const hal::CanFrame& frame) {
@@ -127,12 +135,17 @@ class ScriptedCan final : public hal::CanCalls {
     if (const int error = take_error(); error != 0) return -error;
     if ((flags & IFF_UP) == 0) return -ENETDOWN;
     unsigned done = 0;
+    bool is_socket_full = false;
     for (; done < count && room > 0; ++done, --room) {
+      is_socket_full = is_held_up_ && waiting_bytes_ >= send_buffer();
+      if (is_socket_full) break;
+      if (is_held_up_) waiting_bytes_ += kTrueSize;
       can_frame frame;
       std::memcpy(&frame, messages[done].msg_hdr.msg_iov->iov_base, sizeof frame);
       if (is_noting) sent.push_back(frame);
     }
-    return done == 0 ? -ENOBUFS : static_cast<int>(done);
+    if (done > 0) return static_cast<int>(done);
+    return is_socket_full ? -EAGAIN : -ENOBUFS;
   }
   int receive_batch(int, mmsghdr* messages, unsigned count) override {
     ++receive_calls;
@@ -151,6 +164,15 @@ class ScriptedCan final : public hal::CanCalls {
  private:
   void note(const char* call) {
     if (is_noting) calls.emplace_back(call);
+  }
+  // As net/core/sock.c takes SO_SNDBUF: doubled, and never less than this.
+  static constexpr int kTrueSize = 768, kLeastBuffer = 4608;
+  int send_buffer() const {
+    const auto found = options.find({SOL_SOCKET, SO_SNDBUF});
+    if (found == options.end()) return 212992;
+    int asked = 0;
+    std::memcpy(&asked, found->second.data(), sizeof asked);
+    return std::max(2 * asked, kLeastBuffer);
   }
   int take_error() { return std::exchange(pending_error_, 0); }
 
@@ -188,6 +210,8 @@ class ScriptedCan final : public hal::CanCalls {
   int next_fd_ = 10;
   int bound_ = 0, bound_fd_ = -1;
   int pending_error_ = 0;
+  bool is_held_up_ = false;
+  int waiting_bytes_ = 0;
 };
 
 }  // namespace gannet::test

@@ -14,15 +14,17 @@ using test::ScriptedCan;
 constexpr std::int64_t kMs = 1'000'000;
 constexpr CanFrame kData = {.id = 0x123, .length = 2, .data = {1, 2}};
 
-std::unique_ptr<SocketCanBus> opened(ScriptedCan& kernel, std::vector<CanFilter> wanted = {}) {
-  auto bus = SocketCanBus::open("can0", wanted, kernel.now(), kernel);
+std::unique_ptr<SocketCanBus> opened(ScriptedCan& kernel, std::vector<CanFilter> wanted = {},
+                                     int most_waiting = 0) {
+  auto bus = SocketCanBus::open("can0", wanted, most_waiting, kernel.now(), kernel);
   EXPECT_TRUE(bus) << (bus ? "" : bus.error().text);
   return bus ? std::move(*bus) : nullptr;
 }
 
 std::string refusal(ScriptedCan& kernel, const std::string& name = "can0",
                     std::size_t filters = 0) {
-  const auto bus = SocketCanBus::open(name, std::vector<CanFilter>(filters), kernel.now(), kernel);
+  const auto bus =
+      SocketCanBus::open(name, std::vector<CanFilter>(filters), 0, kernel.now(), kernel);
   EXPECT_TRUE(kernel.open_fds.empty()) << "a socket was left open";
   return bus ? "" : bus.error().text;
 }
@@ -105,7 +107,7 @@ TEST(SocketCanBus, OtherStartErrorsNameTheirReason) {
 }
 
 TEST(SocketCanBus, TheRealKernelRefusesAnInterfaceThatIsNotThere) {
-  const auto bus = SocketCanBus::open("gannet_none", {}, {});
+  const auto bus = SocketCanBus::open("gannet_none", {}, 0, {});
   ASSERT_FALSE(bus);
   EXPECT_NE(bus.error().text.find("gannet_none"), std::string::npos) << bus.error().text;
 }
@@ -149,9 +151,59 @@ TEST(SocketCanBus, AFullQueueRefusesTheRestAndIsNoLoss) {
   EXPECT_EQ(bus->send(frames, kernel.now()), 5);
   EXPECT_EQ(bus->send(frames, kernel.now()), 0);
   EXPECT_EQ(bus->counters().send_refused, 11u);
+  EXPECT_EQ(bus->counters().send_no_room, 11u);
   EXPECT_EQ(bus->state(), BusState::kGood);
   kernel.room = 100;
   EXPECT_EQ(bus->send(frames, kernel.now()), 8) << "at once, there is nothing to wait for";
+}
+
+TEST(SocketCanBus, NoMoreFramesWaitThanTheCallerAllows) {
+  ScriptedCan kernel;
+  const auto bus = opened(kernel, {}, 16);
+  kernel.hold_up();  // the interface's queue is long, and nothing leaves it
+  const std::vector<CanFrame> cycle(3, kData);
+  for (int i = 0; i < 100; ++i) bus->send(cycle, kernel.now());
+  EXPECT_EQ(kernel.sent.size(), 16u);
+  EXPECT_EQ(bus->counters().send_no_room, 284u);
+  EXPECT_EQ(bus->counters().send_refused, 284u);
+  EXPECT_EQ(bus->state(), BusState::kGood);
+  kernel.flow();
+  EXPECT_EQ(bus->send(cycle, kernel.now()), 3);
+}
+
+TEST(SocketCanBus, TheKernelGrantsRoomForSixFrames) {
+  ScriptedCan kernel;
+  const auto bus = opened(kernel, {}, 1);
+  kernel.hold_up();
+  EXPECT_EQ(bus->send(std::vector<CanFrame>(40, kData), kernel.now()), 6);
+}
+
+TEST(SocketCanBus, ALongQueueIsTheKernelsBusinessWhereNobodyAsks) {
+  ScriptedCan kernel;
+  const auto bus = opened(kernel);
+  EXPECT_EQ(kernel.options.count({SOL_SOCKET, SO_SNDBUF}), 0u);
+}
+
+TEST(SocketCanBus, AnInterfaceMadeAnewHasTheSameLimit) {
+  ScriptedCan kernel;
+  const auto bus = opened(kernel, {}, 16);
+  kernel.take_away();
+  bus->send({&kData, 1}, kernel.now());
+  kernel.bring_back(4);
+  kernel.options.clear();
+  kernel.advance(kSecond);
+  EXPECT_EQ(send_one(*bus, kernel), 1);
+  kernel.hold_up();
+  EXPECT_EQ(bus->send(std::vector<CanFrame>(40, kData), kernel.now()), 16);
+}
+
+TEST(SocketCanBus, WhatIsRefusedWhileTheBusIsAwayIsNotForWantOfRoom) {
+  ScriptedCan kernel;
+  const auto bus = opened(kernel, {}, 16);
+  kernel.go_down();
+  EXPECT_EQ(send_one(*bus, kernel), 0);
+  EXPECT_EQ(bus->counters().send_refused, 1u);
+  EXPECT_EQ(bus->counters().send_no_room, 0u);
 }
 
 TEST(SocketCanBus, ReceivesInBatchesAndLeavesWhatHasNoRoom) {

@@ -29,7 +29,7 @@ class VcanTest : public testing::Test {
     return std::system(("ip " + words + " 2>/dev/null").c_str()) == 0;
   }
   std::unique_ptr<SocketCanBus> open(std::vector<CanFilter> wanted = {}) {
-    auto bus = SocketCanBus::open(name_, wanted, monotonic_now());
+    auto bus = SocketCanBus::open(name_, wanted, 32, monotonic_now());
     EXPECT_TRUE(bus) << (bus ? "" : bus.error().text);
     return bus ? std::move(*bus) : nullptr;
   }
