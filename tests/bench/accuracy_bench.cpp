@@ -165,14 +165,16 @@ void bench_accuracy(const Options& options, Results& results) {
                    spread_of(tally.spread[axis]),
                    static_cast<int>(tally.nees.size()),
                    {},
-                   ""});
+                   "",
+                   {at_most(1.5, "times the bound", quantile(tally.spread[axis], 0.5))}});
     }
     results.add({"bias of z" + of,
                  "% of z",
                  spread_of(tally.bias_z),
                  static_cast<int>(tally.nees.size()),
                  {},
-                 std::to_string(tally.missed) + " not found"});
+                 std::to_string(tally.missed) + " not found",
+                 {at_most(0.1, "% of z", quantile(tally.bias_z, 0.5))}});
     const int n = static_cast<int>(tally.nees.size());
     double mean = 0;
     for (const double e : tally.nees) mean += e / std::max(n, 1);

@@ -24,8 +24,9 @@ struct Method {
   const char* name;
   const char* optimiser;
   const char* fitness;
+  int goal_evaluations = 0;  // of these, all but one scene in a hundred within a frame's time
 };
-constexpr Method kMethods[] = {{"gannet", "gannet", "gannet"},
+constexpr Method kMethods[] = {{"gannet", "gannet", "gannet", 6000},
                                {"differential_evolution", "differential_evolution", "gannet"},
                                {"cma_es", "cma_es", "gannet"},
                                {"rm_ga", "rm_ga", "gannet"},
@@ -54,12 +55,16 @@ void bench_method(const Method& method, const ClutteredScene& scene,
     const int n = static_cast<int>(scenes.size());
     char note[100];
     std::snprintf(note, sizeof note, "%d of %d; %.1f ms median", right, n, quantile(ms, 0.5));
+    std::vector<Goal> goals;
+    if (evaluations == method.goal_evaluations)
+      goals = {at_least(99, "% right", 100.0 * right / n), at_most(33, "ms", quantile(ms, 0.5))};
     results.add({std::string(method.name) + ", " + std::to_string(evaluations) + " evaluations",
                  "% right, Wilson 95 %",
                  wilson_percent(right, n),
                  n,
                  {},
-                 note});
+                 note,
+                 goals});
   }
 }
 

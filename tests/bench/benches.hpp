@@ -25,6 +25,7 @@ void bench_decision(const Options& options, Results& results);
 void bench_accuracy(const Options& options, Results& results);
 void bench_refraction(const Options& options, Results& results);
 void bench_relief(const Options& options, Results& results);
+void bench_footprint(const Options& options, Results& results);
 void bench_render(const Options& options, Results& results);
 void bench_jitter(const Options& options, Results& results);
 

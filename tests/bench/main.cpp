@@ -14,7 +14,7 @@ constexpr const char* kHelp =
     "  --quick   small pictures, few turns: does it run? The figures mean nothing.\n"
     "  --only    kernels | fitness | handover | frame | acquisition | decision | accuracy | relief "
     "|\n"
-    "            refraction | render | jitter\n"
+    "            refraction | footprint | render | jitter\n"
     "  --scenes  of the acquisition and the decision, 60 unless told; each method sees all of "
     "them\n"
     "  --trials  of the accuracy, 16 for each pose and noise unless told\n"
@@ -34,6 +34,7 @@ constexpr Group kGroups[] = {{"kernels", gannet::bench::bench_kernels},
                              {"relief", gannet::bench::bench_relief},
                              {"decision", gannet::bench::bench_decision},
                              {"refraction", gannet::bench::bench_refraction},
+                             {"footprint", gannet::bench::bench_footprint},
                              {"render", gannet::bench::bench_render},
                              {"jitter", gannet::bench::bench_jitter}};
 
@@ -73,6 +74,7 @@ int main(int argc, char** argv) {
     std::fputs(kHelp, stderr);
     return 2;
   }
+  results.tell_goals();
   if (json.empty()) return 0;
   if (results.write_json(json)) {
     std::printf("\nwritten to %s\n", json.c_str());

@@ -23,14 +23,35 @@ std::string cpu_model() {
 
 Json json_of(const Spread& s) { return {{"median", s.median}, {"low", s.low}, {"high", s.high}}; }
 
+Json json_of(const Goal& g) {
+  return {{"is", g.text}, {"measured", g.measured}, {"reached", g.reached}};
+}
+
+Goal goal_of(const char* words, double limit, const std::string& what, double measured,
+             bool reached) {
+  char number[40];
+  std::snprintf(number, sizeof number, "%s %.5g ", words, limit);
+  return {number + what, measured, reached};
+}
+
 Json json_of(const Row& row) {
   Json ratios = Json::array();
   for (const Ratio& r : row.ratios) ratios.push_back({{"is", r.text}, {"value", json_of(r.value)}});
-  return {{"name", row.name}, {"ratios", ratios},     {"value", json_of(row.value)},
-          {"unit", row.unit}, {"trials", row.trials}, {"note", row.note}};
+  Json json = {{"name", row.name}, {"ratios", ratios},     {"value", json_of(row.value)},
+               {"unit", row.unit}, {"trials", row.trials}, {"note", row.note}};
+  for (const Goal& g : row.goals) json["goals"].push_back(json_of(g));
+  return json;
 }
 
 }  // namespace
+
+Goal at_most(double limit, const std::string& what, double measured) {
+  return goal_of("at most", limit, what, measured, measured <= limit);
+}
+
+Goal at_least(double limit, const std::string& what, double measured) {
+  return goal_of("at least", limit, what, measured, measured >= limit);
+}
 
 Machine this_machine(const std::string& flags, const std::string& commit) {
 #if defined(__clang__)
@@ -62,10 +83,23 @@ void Results::add(const Row& row) {
     std::printf("  %.2f [%.2f, %.2f] %s;", r.value.median, r.value.low, r.value.high,
                 r.text.c_str());
   }
-  std::printf("  %.4g [%.4g, %.4g] %s, %d trials%s%s\n", row.value.median, row.value.low,
+  std::printf("  %.4g [%.4g, %.4g] %s, %d trials%s%s", row.value.median, row.value.low,
               row.value.high, row.unit.c_str(), row.trials, row.note.empty() ? "" : "; ",
               row.note.c_str());
+  for (const Goal& g : row.goals)
+    std::printf("; goal %s: %s", g.text.c_str(), g.reached ? "reached" : "MISSED");
+  std::printf("\n");
   std::fflush(stdout);
+}
+
+void Results::tell_goals() const {
+  std::printf("\n== goals\n");
+  for (const Group& group : groups_)
+    for (const Row& row : group.rows)
+      for (const Goal& g : row.goals)
+        std::printf("%-8s %-38s goal %s; measured %.4g, %d trials\n",
+                    g.reached ? "reached" : "MISSED", row.name.c_str(), g.text.c_str(), g.measured,
+                    row.trials);
 }
 
 bool Results::write_json(const std::string& path) const {

@@ -14,6 +14,15 @@ struct Ratio {
   Spread value;
 };
 
+// What a figure shall be, and whether it is.
+struct Goal {
+  std::string text;  // "at most 1.5 times the bare loads"
+  double measured = 0;
+  bool reached = false;
+};
+Goal at_most(double limit, const std::string& what, double measured);
+Goal at_least(double limit, const std::string& what, double measured);
+
 struct Row {
   std::string name;
   std::string unit;
@@ -21,6 +30,7 @@ struct Row {
   int trials = 0;
   std::vector<Ratio> ratios;
   std::string note;
+  std::vector<Goal> goals = {};
 };
 
 // What a person must know to believe the figures.
@@ -40,6 +50,9 @@ class Results {
   // how: what is measured, and how, in a sentence or two. Prints the heading.
   void group(const std::string& name, const std::string& how);
   void add(const Row& row);  // prints it
+
+  // All goals of the run once more, each with what was measured.
+  void tell_goals() const;
 
   // False: the file cannot be written.
   bool write_json(const std::string& path) const;

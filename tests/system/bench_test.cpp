@@ -47,7 +47,13 @@ TEST(Bench, a_quick_run_writes_all_groups_with_references_and_trials) {
     EXPECT_GE(rows[std::string(kernel) + ", scalar"].at("ratios").size(), 2u) << kernel;
   }
   EXPECT_TRUE(rows.count("LeasePool lend + return"));
-  EXPECT_TRUE(rows.count("frame to pose, locked"));
+  ASSERT_TRUE(rows.count("frame to pose, locked"));
+  const Json& goals = rows["frame to pose, locked"].at("goals");
+  ASSERT_EQ(goals.size(), 2u);
+  for (const Json& goal : goals) {
+    const double limit = goal.at("is") == "at most 2 ms, p99" ? 2.0 : 1.3;
+    EXPECT_EQ(goal.at("reached").get<bool>(), goal.at("measured").get<double>() <= limit) << goal;
+  }
   for (const auto& [name, row] : rows) {
     if (row.at("trials") == 0) continue;  // skipped, and says so
     EXPECT_TRUE(is_time(row.at("value"))) << name;
