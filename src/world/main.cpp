@@ -14,6 +14,7 @@
 #include "src/world/album.hpp"
 #include "src/world/assets.hpp"
 #include "src/world/daemon_process.hpp"
+#include "src/world/fitness_maps.hpp"
 #include "src/world/paper_command.hpp"
 #include "src/world/reactions.hpp"
 #include "src/world/run_record.hpp"
@@ -124,6 +125,11 @@ Command command() {
             .preset = "0",
             .help = "With --album: so many pictures of one of them each, DIR/pairs/left and right, "
                     "and DIR/pairs/truth.csv, for `gannet which`."},
+           {.name = "maps",
+            .kind = ArgumentKind::kFlag,
+            .help = "With --album: show how each model's fitness is distributed over x and y, as "
+                    "P001 Fig. 6 does: DIR/maps.html with the maps as pictures, alone and among "
+                    "others, by our fitness and the paper's; DIR/maps.csv with their peaks."},
            {.name = "assets",
             .value = "DIR",
             .help = "The photographs; $GANNET_ASSETS or build/assets if absent."}},
@@ -173,6 +179,14 @@ std::string not_there(const std::string& name, const std::string& path,
          "../share/gannet/scenarios; give its file, or set GANNET_SCENARIOS to its folder";
 }
 
+int run_maps(const std::string& folder, const std::string& assets, std::uint64_t seed,
+             Parallel& parallel) {
+  const auto maps = make_fitness_maps(folder, assets, seed, parallel);
+  if (!maps) return fail(3, maps.error().text);
+  std::printf("wrote %zu maps to %s/maps.html\n", maps->size(), folder.c_str());
+  return 0;
+}
+
 int run_album(const Arguments& arguments) {
   const std::string assets = arguments.given("assets") ? arguments.text("assets") : assets_folder();
   const auto seed = static_cast<std::uint64_t>(arguments.given("seed") ? arguments.integer("seed")
@@ -184,7 +198,7 @@ int run_album(const Arguments& arguments) {
   for (const std::string& note : album->notes) std::printf("  %s\n", note.c_str());
   std::printf("wrote %d models and %d pairs below %s\n", album->models, arguments.integer("pairs"),
               arguments.text("album").c_str());
-  return 0;
+  return arguments.flag("maps") ? run_maps(arguments.text("album"), assets, seed, serial) : 0;
 }
 
 int run(const Arguments& arguments, const std::string& program) {

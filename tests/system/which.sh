@@ -12,6 +12,11 @@ check 'and it says so' test "$(grep -c 'a drawn picture' out.txt)" -eq 14
 check 'a database of twelve' grep -q '^wrote 12 models and 13 pairs' out.txt
 "$gannet" model list db/models >out.txt 2>err.txt
 check 'model list reads all' test "$(grep -c gannet out.txt)" -eq 12
+"$gannet_world" --album db --seed 3 --assets "$assets" --maps >out.txt
+check 'a page of maps' grep -q '^wrote 48 maps' out.txt
+check 'with a picture of each, and of each view' test "$(grep -o 'data:image/png' db/maps.html | wc -l) $(grep -o 'data:image/jpeg' db/maps.html | wc -l)" = '48 24'
+check 'each is highest where the target is' test "$(awk -F, 'NR > 1 && $4 <= 5' db/maps.csv | wc -l)" -eq 48
+check 'and of ours nowhere else half as high' test "$(awk -F, '$3 == "gannet" && $6 < $5 / 2' db/maps.csv | wc -l)" -eq 24
 "$gannet_world" --album again --pairs 2 --seed 3 --assets "$assets" >out.txt
 check 'the same seed gives the same pictures' cmp -s db/pairs/right/0001.png again/pairs/right/0001.png
 "$gannet_world" --album db rov_station_keeping >out.txt 2>err.txt
