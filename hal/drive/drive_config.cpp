@@ -54,6 +54,7 @@ void describe(Visitor& v, DriveConfig& c) {
            .help = "A node without a heartbeat for longer is offline; DroneCAN says 3."});
   v.field("arming_status", c.arming_status,
           {.help = "Broadcasts whether the motors are enabled; some ESCs turn nothing without."});
+  v.group("dronecan", c.dronecan, "DroneCAN ESCs (drive.kind = dronecan_esc).");
   v.group("cia402", c.cia402, "CiA 402 drives over CANopen (drive.kind = cia402).");
   v.group("vesc", c.vesc, "VESC controllers (drive.kind = vesc).");
   v.group("odrive", c.odrive, "ODrive controllers over CANSimple (drive.kind = odrive).");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hal/drive/cia402_config.hpp"
+#include "hal/drive/dronecan_config.hpp"
 #include "hal/drive/odrive_config.hpp"
 #include "hal/drive/vesc_config.hpp"
 #include "platform/base/describe.hpp"
@@ -29,6 +30,7 @@ struct DriveConfig {
   double feedback_timeout_s = 0.5;
   double node_timeout_s = 3;
   bool arming_status = true;
+  DroneCanConfig dronecan;
   Cia402Config cia402;
   VescConfig vesc;
   OdriveConfig odrive;

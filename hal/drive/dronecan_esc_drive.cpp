@@ -86,6 +86,7 @@ DroneCanEscDrive::DroneCanEscDrive(const DriveConfig& config, const EscRange& ra
       own_id_(static_cast<std::uint8_t>(config.own_node_id)),
       feedback_timeout_(from_seconds(config.feedback_timeout_s)),
       sends_arming_(config.arming_status),
+      is_guarded_(config.dronecan.is_guarded() || config.dronecan.accept_unguarded),
       own_info_(make_own_info(config.own_node_id)),
       receiver_(subscriptions(), config.own_node_id),
       watch_(node_ids, from_seconds(config.node_timeout_s)),
@@ -299,7 +300,7 @@ void DroneCanEscDrive::set_states(TimePoint now) {
 }
 
 DriveGroupHealth DroneCanEscDrive::health(TimePoint now) const {
-  DriveGroupHealth health = {.all_alive = true};
+  DriveGroupHealth health = {.all_alive = true, .guards_itself = is_guarded_};
   // Two that command the same ESCs: what a motor does is nobody's will.
   if (counters_.own_id_conflicts > 0 && now - conflict_ <= kConflictTime) {
     health.any_fault = true;
@@ -315,6 +316,10 @@ DriveGroupHealth DroneCanEscDrive::health(TimePoint now) const {
     if (health.first_bad >= 0 || (alive && !faulty)) continue;
     health.first_bad = i;
     if (watch_.has_tripped(node)) health.trouble = "its node restarted while enabled";
+  }
+  if (!is_guarded_ && health.first_bad < 0) {
+    health.first_bad = 0;
+    health.trouble = "nobody has said that it stops by itself: drive.dronecan.esc_timeout_s";
   }
   return health;
 }

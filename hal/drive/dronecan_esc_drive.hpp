@@ -10,6 +10,8 @@
 // A node that restarts while enabled is faulty, and its motors are told to stop, until enable has
 // been taken away.
 // A frame of somebody else under our node id is a fault until 2 s have passed without one.
+// That the ESCs stop by themselves when we die is known from the config alone
+// (DroneCanConfig::is_guarded); without it arming is refused.
 // A motor is alive when its node's heartbeat and, where it has feedback, its status are fresh.
 // In feedback a value that the ESC does not know is NaN. Servo thread; RT safe after creation.
 #pragma once
@@ -94,6 +96,7 @@ class DroneCanEscDrive final : public DriveGroup {
   const std::uint8_t own_id_;
   const Duration feedback_timeout_;
   const bool sends_arming_;
+  const bool is_guarded_;  // or the config accepts that they are not
   dronecan::RawCommand command_;
   dronecan::NodeInfo own_info_;
 

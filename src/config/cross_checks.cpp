@@ -168,7 +168,18 @@ class Checker {
                                 "of the thrusters");
   }
 
+  // ESCs that time out between two commands would turn in jerks.
+  void check_esc_timeout() {
+    const hal::DriveConfig& drive = config_.drive;
+    if (drive.kind != "dronecan_esc" || !drive.dronecan.is_guarded()) return;
+    const double period = std::max(drive.command_period_s, 1 / config_.realtime.servo_rate_hz);
+    if (drive.dronecan.esc_timeout_s < 3 * period)
+      refuse("drive.dronecan.esc_timeout_s",
+             "is shorter than three commands, which come every " + number_text(period) + " s");
+  }
+
   void check_drive() {
+    check_esc_timeout();
     const bool has_indices = config_.drive.kind == "dronecan_esc";
     const bool has_own_id = config_.drive.kind != "odrive";
     std::set<int> indices, nodes;

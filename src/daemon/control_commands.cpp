@@ -51,7 +51,8 @@ const char* advice(Cause cause) {
     case Cause::kDrivesNotReady:
       return "a drive is not set up: see gannet events";
     case Cause::kDrivesUnguarded:
-      return "a drive would not stop by itself if the daemon died; see accept_unguarded";
+      return "a drive would not stop by itself if the daemon died: see gannet status, and "
+             "accept_unguarded";
     case Cause::kBusDown:
       return "the CAN bus is down";
     case Cause::kOverruns:

@@ -14,6 +14,7 @@
 #include "src/config/rig_file.hpp"
 #include "src/config/toml_reader.hpp"
 #include "src/config/value_text.hpp"
+#include "src/world/esc_node.hpp"
 
 namespace gannet::world {
 namespace {
@@ -116,6 +117,7 @@ config::DaemonConfig daemon_config(const Scenario& scenario, const RunFiles& fil
   if (scenario.vehicle.kind == "rov") {
     c.vehicle.rov = rov_config(scenario.vehicle.plant);
     c.drive.kind = scenario.vehicle.drives;
+    c.drive.dronecan.esc_timeout_s = EscBehaviour{}.command_timeout_s;
     const bool by_speed = c.drive.kind == "cia402" || c.drive.kind == "odrive";
     if (by_speed) {  // and not a throttle: thrust goes with its square
       c.vehicle.rov.curve.dead_band = 0;

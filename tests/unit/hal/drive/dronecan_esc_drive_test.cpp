@@ -21,6 +21,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 DriveConfig with_motors(int motors) {
   DriveConfig config;
+  config.dronecan.esc_timeout_s = 0.5;
   for (int i = 0; i < motors; ++i) config.motors.push_back({.index = i, .node_id = 21 + i});
   return config;
 }
@@ -356,6 +357,23 @@ TEST_F(DroneCanEscDriveTest, AnotherNodeUnderOurIdIsAFaultUntilItHasBeenGoneForA
   EXPECT_STREQ(health.trouble, "another node on the bus has our node id");
   EXPECT_EQ(health.trouble_code, 10u);
   EXPECT_FALSE(sut_->health(at_ms(2011)).any_fault);
+}
+
+TEST_F(DroneCanEscDriveTest, EscsOfWhichNobodyKnowsWhetherTheyStopAreUnguarded) {
+  DriveConfig config = with_motors(2);
+  config.dronecan.esc_timeout_s = 0;
+  make(config);
+  hear_well(2, at_ms(0));
+  DriveGroupHealth health = sut_->health(at_ms(1));
+  EXPECT_FALSE(health.guards_itself);
+  EXPECT_EQ(health.first_bad, 0);
+  EXPECT_NE(std::string(health.trouble).find("esc_timeout_s"), std::string::npos);
+  config.dronecan.accept_unguarded = true;
+  make(config);
+  hear_well(2, at_ms(0));
+  EXPECT_TRUE(sut_->health(at_ms(1)).guards_itself);
+  make(with_motors(2));
+  EXPECT_TRUE(sut_->health(at_ms(1)).guards_itself) << "the config's word, heard or not";
 }
 
 TEST_F(DroneCanEscDriveTest, TheMostFramesSufficeForTwentyMotorsAndAllDuties) {

@@ -161,6 +161,20 @@ TEST_F(DaemonConfigTest, ids_and_indices_are_judged_by_what_the_motors_speak) {
   EXPECT_EQ(found.find("23 is used twice"), std::string::npos) << found;
 }
 
+TEST_F(DaemonConfigTest, escs_that_stop_between_two_commands_are_told) {
+  const auto refused = [](const std::vector<std::string>& sets) {
+    const auto loaded = load_daemon_config({"docs/examples/rov.toml", sets});
+    return loaded ? std::string() : loaded.error().text;
+  };
+  EXPECT_EQ(refused({"drive.dronecan.esc_timeout_s=0.5"}), "");
+  EXPECT_EQ(refused({"drive.command_period_s=0.2"}), "") << "0: not known, and refused at arming";
+  const std::string text =
+      refused({"drive.dronecan.esc_timeout_s=0.5", "drive.command_period_s=0.2"});
+  EXPECT_NE(text.find("drive.dronecan.esc_timeout_s: is shorter than three commands"),
+            std::string::npos)
+      << text;
+}
+
 TEST_F(DaemonConfigTest, groups_that_do_not_fit_each_other_are_told) {
   write("gannet.toml",
         "rig = \"rig.toml\"\n[board]\ncores = 2\n[realtime.servo]\ncore = 2\n"

@@ -17,6 +17,7 @@ constexpr TimePoint at_ms(std::int64_t ms) { return TimePoint(std::chrono::milli
 
 hal::DriveConfig with_motors(int motors) {
   hal::DriveConfig config;
+  config.dronecan.esc_timeout_s = EscBehaviour{}.command_timeout_s;
   for (int i = 0; i < motors; ++i) {
     config.motors.push_back({.index = i, .node_id = 21 + i, .reversed = i % 2 == 1});
   }
