@@ -9,6 +9,7 @@
 #include "src/vision/fitness_kinds.hpp"
 #include "src/vision/hue_value.hpp"
 #include "src/vision/kernel_choice.hpp"
+#include "src/vision/likeness.hpp"
 
 namespace gannet::track {
 namespace {
@@ -24,6 +25,10 @@ constexpr double kRectanglePoints = 1500;
 constexpr int kPlaceCandidates = 24;  // of place(), about the hint
 constexpr int kTilts = 5;             // of try_tilts(), about each axis
 constexpr int kTiltAnswers = 2;       // of them finished
+constexpr double kLeadCounts = 0.5;   // of the lead on the coarsest level, as likeness
+// Share of the likeness that suffices where the target was a frame ago: there the best wrong pose
+// is one of few.
+constexpr double kKeep = 0.7;
 
 double radians(double degrees) { return degrees * 3.14159265358979323846 / 180; }
 
@@ -557,6 +562,24 @@ double Recogniser::found_threshold() const {
   return config_.found_votes * (2.0 * set.inside + 0.1 * set.outside) / set.points();
 }
 
+// Whether what is there is the target: alike, and by how much more than the best place elsewhere.
+bool Recogniser::is_target(const vision::PreparedFrame& frame, const vision::Hypothesis& answer,
+                           bool locked, Recognition& out) {
+  const double lead = std::max(0.0, out.coarse_fitness - std::max(0.0, out.rival_fitness));
+  out.evaluations += 1;
+  if (fitness_->needs().packed && !target_.unscaled) {
+    out.likeness = vision::likeness(optics_, target_.level[0], frame, out.left_from_target);
+    return out.likeness + kLeadCounts * lead >= (locked ? kKeep : 1) * config_.found_likeness;
+  }
+  // Both eyes must see it: what one eye alone agrees with has no measured depth, and a wrong
+  // calibration looks like that. True poses gave 0.43 and more in the weaker eye, others 0.22 and
+  // less.
+  constexpr double kEyeShare = 0.55;
+  const auto weaker_eye =
+      static_cast<double>(fitness_->weaker_eye(target_, frame, answer, scratch_[0]));
+  return out.fitness + lead >= found_threshold() && weaker_eye >= kEyeShare * found_threshold();
+}
+
 Recognition Recogniser::finish(const vision::PreparedFrame& frame, const vision::Hypothesis& best,
                                float best_score, double evaluations, bool locked) {
   Recognition out;
@@ -605,17 +628,8 @@ Recognition Recogniser::finish(const vision::PreparedFrame& frame, const vision:
                   scratch_[0]);
   out.coarse_fitness = static_cast<double>(coarse);
   out.rival_fitness = static_cast<double>(best_rival(answer));
-  // A target stands out: what it scores more than the best place elsewhere counts like score.
-  const double margin = std::max(0.0, out.coarse_fitness - std::max(0.0, out.rival_fitness));
-  // Both eyes must see it: what one eye alone agrees with has no measured depth, and a wrong
-  // calibration looks like that. True poses gave 0.43 and more in the weaker eye, others 0.22 and
-  // less.
-  constexpr double kEyeShare = 0.55;
-  const auto weaker_eye =
-      static_cast<double>(fitness_->weaker_eye(target_, frame, answer, scratch_[0]));
-  out.evaluations += target_.cost(fitness_->levels(target_) - 1) + 1;
-  out.found = out.fitness + margin >= found_threshold() && has_optimum &&
-              weaker_eye >= kEyeShare * found_threshold();
+  out.evaluations += target_.cost(fitness_->levels(target_) - 1);
+  out.found = has_optimum && is_target(frame, answer, locked, out);
   out.reason = out.found ? TrackReason::kNone : TrackReason::kNotFound;
   out.size_m = size_m_;
   if (config_.relief && !target_.unscaled && out.refined) {

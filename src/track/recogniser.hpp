@@ -96,6 +96,8 @@ class Recogniser {
   Recognition finish(const vision::PreparedFrame& frame, const vision::Hypothesis& best,
                      float best_score, double evaluations, bool locked = false);
   double found_threshold() const;
+  bool is_target(const vision::PreparedFrame& frame, const vision::Hypothesis& answer, bool locked,
+                 Recognition& out);
   Eigen::Vector3d ray_of(const Eigen::Vector2d& pixel, const Eigen::Vector3d& plane) const;
   Eigen::Vector3d aimed(const Eigen::Vector3d& ray, const Eigen::Vector3d& from,
                         const Eigen::Vector3d& to) const;

@@ -41,6 +41,8 @@ struct Recognition {
   Matrix6d covariance = Matrix6d::Zero();  // order as PoseEstimate
   Eigen::Vector2d size_m = Eigen::Vector2d::Zero();
   double fitness = 0;
+  double likeness =
+      0;  // of a photo-model by the fitness gannet, likeness.hpp: what found depends on
   // Of the pose and of the best place elsewhere, both on the coarsest level: what tells a target
   // from the best wrong answer.
   double coarse_fitness = 0;

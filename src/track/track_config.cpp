@@ -31,11 +31,17 @@ void describe(Visitor& v, TrackConfig& c) {
   v.field("seed", c.seed, {.min = 0, .max = 2147483647, .help = "Of the search's random numbers."});
   v.field("model_points", c.model_points,
           {.min = 32, .max = 2000, .help = "Wanted points on a model's target (S_in)."});
+  v.field("found_likeness", c.found_likeness,
+          {.min = 0,
+           .max = 5,
+           .help = "How alike (nats a sample) a model and both images must be at a pose, plus half "
+                   "of its correlation's lead over the best place elsewhere, to count as found; "
+                   "0.7 of it where the model was in the frame before."});
   v.field("found_fitness", c.found_fitness,
           {.min = 0,
            .max = 2,
-           .help = "Least correlation, plus lead over the best place elsewhere, that counts as "
-                   "found."});
+           .help = "Least correlation of a rectangle, plus lead over the best depth elsewhere, "
+                   "that counts as found."});
   v.field("found_votes", c.found_votes,
           {.min = 0,
            .max = 1,

@@ -17,8 +17,10 @@ struct TrackConfig {
   bool refine = true;  // below a pixel; false: as in the papers, the pose is the search's own
   int seed = 1;
   int model_points = 800;  // wanted S_in points of a model
-  // Least correlation plus lead over the best place elsewhere that counts as found: true poses
-  // of textured creatures gave 0.6 and more, the best wrong ones 0.5 and less.
+  // Least likeness of a model (vision/likeness.hpp) plus half its lead over the best place
+  // elsewhere that counts as found: its tail over wrong poses is in `make bench`, "found or not".
+  double found_likeness = 0.55;
+  // The same for a rectangle: least correlation plus lead over the best depth elsewhere.
   double found_fitness = 0.55;
   bool relief = true;
   double found_votes = 0.3;  // for vote fitnesses: least share of a perfect score
