@@ -94,10 +94,12 @@ std::vector<Argument> search_options(const std::string& depths) {
 }
 
 Argument simd_option() {
-  return {.name = "simd",
-          .value = "NAME",
-          .preset = "auto",
-          .help = "Kernels to use: auto, scalar, avx2, neon; the answer does not depend on them."};
+  return {
+      .name = "simd",
+      .value = "NAME",
+      .preset = "auto",
+      .help =
+          "Kernels to use: auto, scalar, avx2, avx512, neon; the answer does not depend on them."};
 }
 
 std::vector<Argument> joined(std::vector<Argument> a, const std::vector<Argument>& b) {

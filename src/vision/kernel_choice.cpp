@@ -6,9 +6,13 @@ namespace gannet::vision {
 
 std::span<const Kernels* const> kernels_here() {
 #if defined(__x86_64__)
-  static const std::array<const Kernels*, 2> all = {&kScalarKernels, &kAvx2Kernels};
+  static const std::array<const Kernels*, 3> all = {&kScalarKernels, &kAvx2Kernels,
+                                                    &kAvx512Kernels};
   __builtin_cpu_init();
-  const std::size_t count = __builtin_cpu_supports("avx2") ? 2 : 1;
+  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                      __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vnni");
+  const bool avx2 = __builtin_cpu_supports("avx2");
+  const std::size_t count = avx2 ? avx512 ? 3 : 2 : 1;
 #elif defined(__aarch64__)
   static const std::array<const Kernels*, 2> all = {&kScalarKernels, &kNeonKernels};
   const std::size_t count = 2;

@@ -102,7 +102,8 @@ struct Kernels {
 };
 
 extern const Kernels kScalarKernels;
-extern const Kernels kAvx2Kernels;  // x86-64 only
-extern const Kernels kNeonKernels;  // aarch64 only
+extern const Kernels kAvx2Kernels;    // x86-64 only
+extern const Kernels kAvx512Kernels;  // x86-64 only; F, BW, VL, VNNI
+extern const Kernels kNeonKernels;    // aarch64 only
 
 }  // namespace gannet::vision
