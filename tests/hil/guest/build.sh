@@ -137,7 +137,7 @@ as_root=
 rm -rf "$out/root"
 mkdir "$out/root"
 export here out kernel release
-MODULES=$(modules_of vcan can-raw can-dev vivid videodev configfs v4l2loopback gpio-sim)
+MODULES=$(modules_of vcan can-raw can-dev sch_plug vivid videodev configfs v4l2loopback gpio-sim)
 export MODULES
 $as_root bash -euc '
   tar -xf "$out/rootfs.tar" -C "$out/root" --exclude "./dev/*"
